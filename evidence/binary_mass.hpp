@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <array>
+#include <iosfwd>
+#include <optional>
+#include <span>
+
+namespace credo::evidence {
+
+/// A mass function on the two-element frame {YES, NO}: the belief that the robot carries about one assertion.
+/// yes + no + unknown = 1; `unknown` is the mass of the whole frame (ignorance).
+struct BinaryMass {
+  double yes = 0.0;
+  double no = 0.0;
+  double unknown = 1.0;
+
+  [[nodiscard]] static constexpr BinaryMass vacuous() { return {}; }
+  /// From the two committed masses; the rest is ignorance.
+  /// \throws std::invalid_argument unless yes >= 0, no >= 0 and yes + no <= 1 (tolerance 1e-9).
+  [[nodiscard]] static BinaryMass from(double yes, double no);
+
+  [[nodiscard]] constexpr double belief() const { return yes; }
+  [[nodiscard]] constexpr double plausibility() const { return yes + unknown; }
+  /// Pignistic probability of YES.
+  [[nodiscard]] constexpr double pignistic() const { return yes + 0.5 * unknown; }
+
+  friend constexpr bool operator==(const BinaryMass&, const BinaryMass&) = default;
+};
+
+/// What the conjunctive rule leaves before anything is done about the conflict: masses and the mass of the empty set.
+struct OpenBinaryMass {
+  double yes = 0.0;
+  double no = 0.0;
+  double unknown = 1.0;
+  double conflict = 0.0;
+};
+
+/// A mass function and the conflict that was met (and moved or divided out) on the way to it.
+struct FusedBinaryMass {
+  BinaryMass mass;
+  double conflict = 0.0;
+};
+
+/// Unnormalised conjunctive rule of any number of sources (TBM): associative, commutative, the vacuous mass is neutral.
+/// No source gives the vacuous mass.
+[[nodiscard]] OpenBinaryMass conjunctive(std::span<const BinaryMass> sources);
+
+/// Dempster's rule: the conjunctive rule divided by the sum of what is not in conflict.
+/// \returns nothing at total conflict.
+[[nodiscard]] std::optional<FusedBinaryMass> dempster(std::span<const BinaryMass> sources);
+
+/// Conflict to ignorance (Yager), n-ary: all sources at once, then the conflict is moved to the frame, once. Not
+/// associative: folding it gives another result. Total conflict gives the vacuous mass with conflict 1.
+[[nodiscard]] FusedBinaryMass conflict_to_ignorance(std::span<const BinaryMass> sources);
+
+/// Classical (Shafer) discounting: committed masses are multiplied by `reliability`, the rest is ignorance.
+/// \param reliability  in [0, 1]; 1 keeps the mass, 0 makes it vacuous.
+[[nodiscard]] constexpr BinaryMass discount(const BinaryMass& mass, double reliability) {
+  return {.yes = reliability * mass.yes,
+          .no = reliability * mass.no,
+          .unknown = 1.0 - reliability * (mass.yes + mass.no)};
+}
+
+std::ostream& operator<<(std::ostream& out, const BinaryMass& mass);
+
+}  // namespace credo::evidence

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace credo::geometry {
+
+/// The angle in (-pi, pi] that is equal to `angle` modulo 2 pi. [rad]
+[[nodiscard]] inline double wrap_angle(double angle) {
+  const double wrapped = std::remainder(angle, 2.0 * std::numbers::pi);
+  return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
+}
+
+/// a - b, wrapped to (-pi, pi]. [rad]
+[[nodiscard]] inline double angle_difference(double a, double b) { return wrap_angle(a - b); }
+
+[[nodiscard]] constexpr double to_radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+[[nodiscard]] constexpr double to_degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+
+}  // namespace credo::geometry

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "evidence/believed.hpp"
+#include "geometry/pose.hpp"
+#include "sensors/time.hpp"
+
+namespace credo::localization {
+
+enum class Status {
+  kInitializing,  ///< no absolute pose yet
+  kLocalized,
+  kUncertain,  ///< the pose may be off
+  kAmbiguous,  ///< several poses fit: see `hypotheses`
+  kLost,       ///< the pose is believed wrong
+};
+
+/// One of several poses that fit, with how far it is believed.
+struct Hypothesis {
+  geometry::Pose2 pose;
+  double belief = 0.0;
+  double plausibility = 1.0;
+};
+
+/// Where the robot is, and whether to believe it. Never a bare pose.
+struct Localization {
+  sensors::Timestamp time = 0;
+  geometry::PoseEstimate estimate;  ///< T_map_base with covariance; in the start's frame while initializing
+  evidence::BinaryMass belief;      ///< in "the localization is correct" (Clerentin et al., sec. 4.5)
+  double conflict = 0.0;            ///< between its criteria
+  Status status = Status::kInitializing;
+  int detected = 0;  ///< primitives in the scene
+  int matched = 0;   ///< of them, matched to the map and used for the pose
+  int tracked = 0;   ///< tracks alive
+  std::vector<Hypothesis> hypotheses;  ///< empty unless there is more than one
+  std::string reason;                  ///< why it is unsure, in words; empty while localized
+};
+
+[[nodiscard]] const char* to_string(Status status);
+std::ostream& operator<<(std::ostream& out, const Localization& localization);
+
+}  // namespace credo::localization
