@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstddef>
+#include <iterator>
+#include <vector>
+
+#include "datasets/dataset.hpp"
+#include "sensors/acquisition.hpp"
+
+namespace credo::datasets {
+
+struct AcquisitionParams {
+  /// The row of another camera or range finder belongs to an acquisition if it is at most this far from it.
+  double nearest_within_s = 0.1;
+};
+
+/// The acquisitions of a dataset, in order of time (docs/dataset-format.md, "Time"):
+///
+///     for (const sensors::Acquisition& acquisition : Acquisitions(dataset)) ...
+///
+/// Each sonar sweep, each scan and each odometry row is in exactly one acquisition's lists, or in trailing(). Rows of the
+/// acquisition sensor with the same time are one acquisition, that of the last of them.
+class Acquisitions {
+ public:
+  /// \param dataset  must outlive this
+  explicit Acquisitions(const Dataset& dataset, const AcquisitionParams& params = {});
+  explicit Acquisitions(Dataset&&, const AcquisitionParams& = {}) = delete;
+
+  [[nodiscard]] std::size_t size() const { return times_.size(); }
+  /// Of each acquisition. [ns]
+  [[nodiscard]] const std::vector<sensors::Timestamp>& times() const { return times_; }
+
+  /// Acquisition `index` in [0, size()); decodes its image. A pure function: any order, any thread.
+  /// \throws FormatError if the image cannot be decoded or does not fit the camera.
+  [[nodiscard]] sensors::Acquisition read(std::size_t index) const;
+
+  /// The rows after the last acquisition: its `scans`, `sonar`, `odometry` and `path` are filled; `time` is that of the
+  /// last row (of the last acquisition where nothing follows it), `motion` leads from the last acquisition to there.
+  [[nodiscard]] sensors::Acquisition trailing() const;
+
+  /// Reads one acquisition after the other; single pass.
+  class Iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = sensors::Acquisition;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const sensors::Acquisition*;
+    using reference = sensors::Acquisition;
+
+    Iterator(const Acquisitions* all, std::size_t index) : all_(all), index_(index) {}
+    [[nodiscard]] sensors::Acquisition operator*() const { return all_->read(index_); }
+    Iterator& operator++() { return ++index_, *this; }
+    Iterator operator++(int) { return {all_, index_++}; }
+    friend bool operator==(const Iterator&, const Iterator&) = default;
+
+   private:
+    const Acquisitions* all_;
+    std::size_t index_;
+  };
+  [[nodiscard]] Iterator begin() const { return {this, 0}; }
+  [[nodiscard]] Iterator end() const { return {this, size()}; }
+
+ private:
+  [[nodiscard]] sensors::Acquisition rows_between(std::size_t index) const;
+
+  const Dataset* dataset_;
+  AcquisitionParams params_;
+  std::vector<sensors::Timestamp> times_;
+  std::vector<std::size_t> rows_;  ///< of the acquisition sensor, for each acquisition
+};
+
+}  // namespace credo::datasets
