@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+
+#include "evidence/log_commonality.hpp"
+#include "grids/georeference.hpp"
+
+namespace credo::grids {
+
+/// A tile by its column and row; tile (0, 0) starts with cell (0, 0). Ordered by row, then column.
+struct TileIndex {
+  std::int32_t y = 0;
+  std::int32_t x = 0;
+
+  friend auto operator<=>(const TileIndex&, const TileIndex&) = default;
+};
+
+/// A square of cells, one array per channel, row after row from the lowest; all zero is vacuous.
+struct Tile {
+  static constexpr int kShift = 6;
+  static constexpr int kSide = 1 << kShift;  // cells
+  static constexpr int kCells = kSide * kSide;
+
+  alignas(64) std::array<std::int32_t, kCells> empty{};     ///< log commonality of "empty", fixed point
+  alignas(64) std::array<std::int32_t, kCells> occupied{};  ///< of "occupied"
+  alignas(64) std::array<std::int32_t, kCells> unknown{};   ///< of the whole frame
+
+  [[nodiscard]] bool is_vacuous() const;
+  friend bool operator==(const Tile&, const Tile&) = default;
+};
+
+/// The tile that holds a cell, and the place of the cell in the tile's arrays.
+[[nodiscard]] constexpr TileIndex tile_of(CellIndex cell) { return {cell.y >> Tile::kShift, cell.x >> Tile::kShift}; }
+[[nodiscard]] constexpr int place_in_tile(CellIndex cell) {
+  return ((cell.y & (Tile::kSide - 1)) << Tile::kShift) | (cell.x & (Tile::kSide - 1));
+}
+
+/// An evidential grid map: every cell is a product of commonalities, kept as a fixed-point logarithm. An update is three
+/// integer additions, so is a merge, and the sum is the same to the last bit whatever the order, the thread or the robot.
+/// The grid has no edge: tiles appear where there is evidence, and an absent tile is vacuous.
+class EvidentialGrid {
+ public:
+  EvidentialGrid() : EvidentialGrid(Georeference{}) {}
+  /// \throws std::invalid_argument unless the resolution is finite and above zero and the origin finite.
+  explicit EvidentialGrid(const Georeference& georeference);
+
+  [[nodiscard]] const Georeference& georeference() const { return georeference_; }
+
+  /// What is known of a cell; vacuous where nothing was added.
+  [[nodiscard]] evidence::LogCommonality at(CellIndex cell) const;
+  /// Combines one more piece of evidence into a cell (unnormalised conjunctive rule).
+  void add(CellIndex cell, const evidence::LogCommonality& increment);
+
+  /// The tile to write to; made when absent. The reference stays valid until the tile is pruned or the grid dies.
+  [[nodiscard]] Tile& tile(TileIndex index) { return tiles_[index]; }
+  /// The tile to read from; null when absent.
+  [[nodiscard]] const Tile* find_tile(TileIndex index) const;
+  /// All tiles, by row and column.
+  [[nodiscard]] const std::map<TileIndex, Tile>& tiles() const { return tiles_; }
+
+  /// Combines another robot's, or another sensor's, map of the same georeference: commutative and associative to the bit.
+  /// Evidence that both maps hold is counted twice: merge maps of disjoint readings.
+  /// \throws std::invalid_argument if the georeferences differ.
+  void merge(const EvidentialGrid& other);
+  /// Takes back what `merge` added: the grid is as if `other` had never been merged.
+  /// \throws std::invalid_argument if the georeferences differ.
+  void remove(const EvidentialGrid& other);
+  /// Drops the tiles that hold no evidence.
+  void prune();
+
+  /// The smallest box that holds all evidence; empty for a vacuous grid.
+  [[nodiscard]] CellBox bounding_box() const;
+
+  /// Same georeference and same evidence in every cell; a vacuous tile equals an absent one.
+  friend bool operator==(const EvidentialGrid& a, const EvidentialGrid& b);
+
+ private:
+  Georeference georeference_;
+  std::map<TileIndex, Tile> tiles_;
+};
+
+}  // namespace credo::grids

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <vector>
+
+#include "evidence/grid_mass.hpp"
+#include "grids/evidential_grid.hpp"
+
+namespace credo::grids {
+
+enum class CellState { kUnknown, kEmpty, kOccupied, kContested };
+
+/// When a cell is called what. Probabilities are pignistic.
+struct DecisionParams {
+  double unknown_above = 0.5;    ///< more ignorance than this: unknown
+  double occupied_from = 0.65;   ///< probability of "occupied" from which a cell is occupied (that of map_server)
+  double empty_until = 0.196;    ///< probability of "occupied" up to which a cell is empty (that of map_server)
+  double contested_from = 0.8;   ///< from this balance of evidence for and against: contested, whatever the probability
+};
+
+/// Masses as the unnormalised conjunctive rule (the classic rule of the free DSm model) leaves them.
+[[nodiscard]] evidence::GridMass raw(const evidence::LogCommonality& cell);
+/// Masses after Dempster's normalisation: empty + occupied + unknown = 1, conflict = 0. Defined for every cell.
+[[nodiscard]] evidence::GridMass normalized(const evidence::LogCommonality& cell);
+/// Pignistic probability of "occupied" after normalisation.
+[[nodiscard]] double probability_occupied(const evidence::LogCommonality& cell);
+
+/// How evenly the evidence speaks for both sides: 2 min(v_e, v_o) / (v_e + v_o), with v the logarithm of the ratio of a
+/// commonality to that of the whole frame, the weight of evidence; 0 without evidence. [0, 1]
+[[nodiscard]] double contested(const evidence::LogCommonality& cell);
+
+[[nodiscard]] CellState decide(const evidence::LogCommonality& cell, const DecisionParams& params = {});
+
+/// What one number per cell can be asked for.
+enum class Layer {
+  kEmpty,                ///< mass after Dempster's normalisation
+  kOccupied,             ///< mass after Dempster's normalisation
+  kUnknown,              ///< mass after Dempster's normalisation
+  kContested,            ///< balance of evidence for and against
+  kProbabilityOccupied,  ///< pignistic
+  kRawEmpty,             ///< unnormalised masses
+  kRawOccupied,
+  kRawConflict,
+  kRawUnknown,
+};
+
+/// One layer of a rectangle of cells: `box.height` rows of `box.width` floats, lowest row first.
+/// \throws std::invalid_argument if the box holds more than 2^28 cells: the map is larger than a picture can be.
+[[nodiscard]] std::vector<float> layer(const EvidentialGrid& grid, const CellBox& box, Layer which);
+
+/// The decision for every cell of a rectangle, in the order of `layer`.
+/// \throws std::invalid_argument as `layer`.
+[[nodiscard]] std::vector<CellState> decisions(const EvidentialGrid& grid, const CellBox& box,
+                                               const DecisionParams& params = {});
+
+[[nodiscard]] const char* to_string(CellState state);
+
+}  // namespace credo::grids

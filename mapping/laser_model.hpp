@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <concepts>
+
+#include "evidence/grid_mass.hpp"
+#include "sensors/range_finder.hpp"
+
+namespace credo::mapping {
+
+/// What a beam says: constant masses up to `reading - half_width` and within the half-width of the reading, nothing beyond.
+template <typename Model>
+concept LaserModel = requires(const Model& model, const sensors::RangeNoise& noise, double reading_m) {
+  { model.free_mass() } -> std::convertible_to<evidence::GridMass>;
+  { model.hit_mass() } -> std::convertible_to<evidence::GridMass>;
+  { model.half_width(reading_m, noise) } -> std::convertible_to<double>;       // of the occupied interval [m]
+  { model.hit_reliability(reading_m, noise) } -> std::convertible_to<double>;  // of hit_mass, in [0, 1]
+};
+
+struct Li2006LaserParams {
+  double epsilon_m = 0.05;        ///< half of the occupied interval (Li X. 2006, eqs. (10)-(12))
+  double sigmas = 3.0;            ///< the interval is widened to this many sigma of the range
+  double reliability = 0.95;      ///< discounts every reading
+};
+
+/// Laser of Li X. 2006, eqs. (10)-(12): free (.9, .05, .05), occupied (.05, .9, .05). The paper's +-5 cm holds for time of
+/// flight; a triangulating range finder's error grows with the square of the range, so the interval is widened to 3 sigma
+/// and, as the wall is still in one place of it, its evidence is discounted by the share eps / half_width.
+class Li2006Laser {
+ public:
+  /// \throws std::invalid_argument if a parameter is out of its range.
+  explicit Li2006Laser(const Li2006LaserParams& params = {});
+
+  [[nodiscard]] evidence::GridMass free_mass() const;
+  [[nodiscard]] evidence::GridMass hit_mass() const;
+  [[nodiscard]] double half_width(double reading_m, const sensors::RangeNoise& noise) const;
+  [[nodiscard]] double hit_reliability(double reading_m, const sensors::RangeNoise& noise) const;
+
+ private:
+  Li2006LaserParams params_;
+};
+static_assert(LaserModel<Li2006Laser>);
+
+/// Li X. 2006, eqs. (10)-(12), without discounting: the masses of a cell at `rho_m` for a reading at `reading_m`.
+[[nodiscard]] evidence::GridMass laser_li2006(double rho_m, double reading_m, double epsilon_m);
+
+}  // namespace credo::mapping

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "evidence/believed.hpp"
+#include "grids/evidential_grid.hpp"
+#include "mapping/laser_model.hpp"
+#include "mapping/pose_reliability.hpp"
+#include "mapping/sonar_model.hpp"
+#include "sensors/acquisition.hpp"
+
+namespace credo::mapping {
+
+/// How a scan is spread over the cells.
+struct ScanParams {
+  double max_range_m = 30.0;             ///< beams are cut here: free up to it, no hit beyond
+  double no_return_reliability = 0.1;    ///< of "empty" along a beam that nothing came back from
+  double no_return_range_m = 4.0;        ///< and up to here only, or range_max where that is nearer
+  double min_incidence_rad = 0.087;      ///< neighbouring hits lie on one surface if it is met at least this steeply
+};
+
+struct MapperParams {
+  grids::Georeference georeference;
+  Li2007Params sonar;
+  Li2006LaserParams laser;
+  ScanParams scan;
+  PoseReliabilityParams pose;
+};
+
+/// What became of the readings.
+struct MappingCounts {
+  std::int64_t sweeps = 0;
+  std::int64_t scans = 0;
+  std::int64_t refused = 0;       ///< sweeps and scans whose pose is too unsure: nothing was mapped
+  std::int64_t echoes = 0;        ///< readings with a range
+  std::int64_t no_returns = 0;    ///< inf: weak evidence of free space
+  std::int64_t missing = 0;       ///< nan: evidence of nothing
+  std::int64_t out_of_range = 0;  ///< finite, but outside [range_min, range_max]: as nan
+
+  MappingCounts& operator+=(const MappingCounts& other);
+  friend bool operator==(const MappingCounts&, const MappingCounts&) = default;
+};
+
+/// Ranges from believed poses -> evidential grid (Li X. 2007, sec. 5; Li X. 2006, sec. 4). Only the cells of the fan or the
+/// beam's sector are touched ("restricted spreading"), each once per reading of a transducer and once per scan. An unsure
+/// pose discounts what it maps; a lost one maps nothing.
+class Mapper {
+ public:
+  /// Binds the rig's sonar rings and range finders by their index.
+  /// \throws std::invalid_argument if a parameter is out of range, or a beam width or angle increment cannot be mapped.
+  explicit Mapper(const sensors::Rig& rig, const MapperParams& params = {});
+  ~Mapper();
+  Mapper(Mapper&&) noexcept;
+  Mapper& operator=(Mapper&&) noexcept;
+
+  /// \param T_map_base  at the time of the reading
+  /// \param path        carries the pose to when each beam, or each transducer, was fired; empty: all at once
+  /// \throws std::invalid_argument if the rig has no such sensor, the number of ranges is not that of the sensor, or the
+  ///         pose is not finite; std::out_of_range if it is too far away to be addressed. The map is unchanged then.
+  void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::SonarSweep& sweep,
+              const sensors::MotionPath& path = {});
+  void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::RangeScan& scan,
+              const sensors::MotionPath& path = {});
+
+  [[nodiscard]] const grids::EvidentialGrid& grid() const;
+  /// Hands the map over and starts a new one.
+  [[nodiscard]] grids::EvidentialGrid take_grid();
+  [[nodiscard]] const MappingCounts& counts() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+struct TrajectoryMappingParams {
+  MapperParams mapper;
+  double max_gap_s = 0.5;  ///< a reading further than this from the nearest pose is left out
+  /// Covariance and belief of all poses of the trajectory: taken as true unless said otherwise.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  evidence::BinaryMass belief{.yes = 1.0, .no = 0.0, .unknown = 0.0};
+};
+
+struct TrajectoryMap {
+  grids::EvidentialGrid grid;
+  MappingCounts counts;
+  std::int64_t without_pose = 0;  ///< readings left out for want of a pose near in time
+};
+
+/// The map of a whole drive whose poses are given: `T_map_base` holds the trajectory, in the map frame, and carries every
+/// beam to its own time. Runs on all cores; the result is the same to the last bit whatever their number.
+/// \throws std::invalid_argument and std::out_of_range as `Mapper`, or if the trajectory is empty.
+[[nodiscard]] TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
+                                      std::span<const sensors::RangeScan> scans,
+                                      std::span<const sensors::SonarSweep> sweeps,
+                                      const TrajectoryMappingParams& params = {});
+
+}  // namespace credo::mapping
