@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <array>
+#include <initializer_list>
 #include <iosfwd>
 #include <optional>
 #include <span>
@@ -19,11 +19,14 @@ struct BinaryMass {
 
   [[nodiscard]] static constexpr BinaryMass vacuous() { return {}; }
   /// From the two committed masses; the rest is ignorance.
-  /// \throws std::invalid_argument unless yes >= 0, no >= 0 and yes + no <= 1 (tolerance 1e-9).
+  /// \throws std::invalid_argument unless yes >= 0, no >= 0 and yes + no <= 1 (tolerance 1e-9: masses that exceed 1 by
+  ///         less are divided by their sum).
   [[nodiscard]] static BinaryMass from(double yes, double no);
 
   [[nodiscard]] constexpr double belief() const { return yes; }
   [[nodiscard]] constexpr double plausibility() const { return yes + unknown; }
+  /// Commonality of {YES} is its plausibility, of {NO} likewise; that of the frame is `unknown`.
+  [[nodiscard]] constexpr double plausibility_of_no() const { return no + unknown; }
   /// Pignistic probability of YES.
   [[nodiscard]] constexpr double pignistic() const { return yes + 0.5 * unknown; }
 
@@ -44,26 +47,60 @@ struct FusedBinaryMass {
   double conflict = 0.0;
 };
 
+/// What is done with the conflict that the conjunctive rule leaves.
+enum class FusionRule {
+  kDempster,            ///< divided out
+  kConflictToIgnorance  ///< moved to the frame, once (Yager; Clerentin et al., sec. 3.1)
+};
+
+/// Sources taken in one after the other without storing them, and the rules that are read from their conjunction. Sums of
+/// products of masses only: nothing is subtracted, so masses are never negative and small ones keep their digits.
+class Conjunction {
+ public:
+  void add(const BinaryMass& source);
+
+  [[nodiscard]] OpenBinaryMass open() const;
+  [[nodiscard]] std::optional<FusedBinaryMass> dempster() const;
+  [[nodiscard]] FusedBinaryMass conflict_to_ignorance() const;
+  [[nodiscard]] std::optional<FusedBinaryMass> fuse(FusionRule rule) const;
+
+ private:
+  // What is not in conflict, times 2^scale_: the conjunction of hundreds of opposed sources would underflow.
+  double yes_ = 0.0, no_ = 0.0, unknown_ = 1.0;
+  int scale_ = 0;
+  double conflict_ = 0.0;
+};
+
 /// Unnormalised conjunctive rule of any number of sources (TBM): associative, commutative, the vacuous mass is neutral.
 /// No source gives the vacuous mass.
 [[nodiscard]] OpenBinaryMass conjunctive(std::span<const BinaryMass> sources);
+[[nodiscard]] OpenBinaryMass conjunctive(std::initializer_list<BinaryMass> sources);
 
-/// Dempster's rule: the conjunctive rule divided by the sum of what is not in conflict.
+/// Dempster's rule: the conjunctive rule divided by the sum of what is not in conflict (not by 1 - conflict, which has no
+/// digits left near total conflict).
 /// \returns nothing at total conflict.
 [[nodiscard]] std::optional<FusedBinaryMass> dempster(std::span<const BinaryMass> sources);
+[[nodiscard]] std::optional<FusedBinaryMass> dempster(std::initializer_list<BinaryMass> sources);
 
 /// Conflict to ignorance (Yager), n-ary: all sources at once, then the conflict is moved to the frame, once. Not
 /// associative: folding it gives another result. Total conflict gives the vacuous mass with conflict 1.
 [[nodiscard]] FusedBinaryMass conflict_to_ignorance(std::span<const BinaryMass> sources);
+[[nodiscard]] FusedBinaryMass conflict_to_ignorance(std::initializer_list<BinaryMass> sources);
+
+/// One of the two rules above, n-ary.
+/// \returns nothing at total conflict under Dempster's rule.
+[[nodiscard]] std::optional<FusedBinaryMass> fuse(std::span<const BinaryMass> sources, FusionRule rule);
+[[nodiscard]] std::optional<FusedBinaryMass> fuse(std::initializer_list<BinaryMass> sources, FusionRule rule);
 
 /// Classical (Shafer) discounting: committed masses are multiplied by `reliability`, the rest is ignorance.
 /// \param reliability  in [0, 1]; 1 keeps the mass, 0 makes it vacuous.
 [[nodiscard]] constexpr BinaryMass discount(const BinaryMass& mass, double reliability) {
   return {.yes = reliability * mass.yes,
           .no = reliability * mass.no,
-          .unknown = 1.0 - reliability * (mass.yes + mass.no)};
+          .unknown = (1.0 - reliability) + reliability * mass.unknown};
 }
 
 std::ostream& operator<<(std::ostream& out, const BinaryMass& mass);
+std::ostream& operator<<(std::ostream& out, const OpenBinaryMass& mass);
 
 }  // namespace credo::evidence
