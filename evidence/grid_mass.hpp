@@ -37,7 +37,7 @@ enum class GridModel {
 /// The non-empty elements of the frame. kConflict is one under the free model only.
 enum class GridElement { kEmpty, kOccupied, kConflict, kUnknown };
 
-/// DSm classic rule, closed form: associative, commutative, the vacuous mass is neutral (Li X. 2006, eq. (4)). The conflict
+/// DSm classic rule, closed form: associative, commutative, the vacuous mass is neutral (Li X. 2006, eq. (3); Li X. 2007, eq. (4)). The conflict
 /// absorbs: it never shrinks, so decide by normalised masses, not by Bel.
 [[nodiscard]] GridMass dsmc(const GridMass& a, const GridMass& b);
 /// n-ary; no source gives the vacuous mass.
