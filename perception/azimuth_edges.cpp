@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "perception/azimuth_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+namespace credo::perception {
+namespace {
+
+constexpr int kBlock = 16;          // columns that are skipped together where nothing exceeds the threshold
+constexpr int kLargestTapSum = 32;  // keeps the answer to 255 * AnnulusTable::kScale within 16 bits
+constexpr double kMedianToSigma = 1.4826;
+// Independent pixel noise keeps about this share of its sigma when two rows of pixels are mixed by weights that take
+// every value alike: sqrt(mean of (1-a)^2 + a^2) = sqrt(2/3) per axis, of which only the radial one is free of the
+// filter's own averaging.
+constexpr double kInterpolationNoise = 0.816;
+
+int largest_magnitude(const std::int16_t* values) {
+  std::int16_t largest = 0;
+  for (int i = 0; i < kBlock; ++i) {
+    const auto magnitude = static_cast<std::int16_t>(values[i] < 0 ? -values[i] : values[i]);
+    largest = std::max(largest, magnitude);
+  }
+  return largest;
+}
+
+}  // namespace
+
+AzimuthEdgeFilter::AzimuthEdgeFilter(const EdgeFilterParams& params, double column_px, int max_columns)
+    : params_(params), samples_(max_columns + 2 * kMargin), response_(max_columns + 2 * kMargin) {
+  const double sigma = std::max(1.0, params.sigma_px / column_px);  // in columns, at least one
+  std::array<double, kReach> ideal{};
+  double sum = 0.0;
+  for (int i = 0; i < kReach; ++i) sum += ideal[i] = (i + 1) * std::exp(-0.5 * (i + 1) * (i + 1) / (sigma * sigma));
+  double blurred_sum = 0.0;
+  std::array<double, 2 * kReach + 1> kernel{};
+  for (int i = 0; i < kReach; ++i) {
+    taps_[i] = static_cast<std::int16_t>(std::floor(ideal[i] / sum * kLargestTapSum));
+    blurred_sum += taps_[i] * std::erf((i + 1) * column_px / (std::numbers::sqrt2 * params.expected_blur_px));
+    kernel[kReach + i + 1] = taps_[i];
+    kernel[kReach - i - 1] = -taps_[i];
+  }
+  gain_ = AnnulusTable::kScale * blurred_sum;
+  // White noise n through kernel k: variance n^2 sum k^2. The place of the extremum is (D+ - D-) / (2 curvature), whose
+  // numerator has the variance of the kernel's difference over two columns.
+  double square = 0.0;
+  double difference_square = 0.0;
+  for (int i = 0; i < 2 * kReach + 1; ++i) square += kernel[i] * kernel[i];
+  for (int i = -2; i < 2 * kReach + 1; ++i) {
+    const double ahead = i + 2 <= 2 * kReach ? kernel[i + 2] : 0.0;
+    const double here = i >= 0 ? kernel[i] : 0.0;
+    difference_square += (ahead - here) * (ahead - here);
+  }
+  noise_gain_ = AnnulusTable::kScale * kInterpolationNoise * std::sqrt(square);
+  extremum_gain_ = AnnulusTable::kScale * kInterpolationNoise * std::sqrt(difference_square) / 2.0;
+}
+
+void AzimuthEdgeFilter::filter_row(const AnnulusTable& table, const std::uint8_t* pixels, int row) {
+  const int columns = table.rows()[row].columns;
+  std::int16_t* sample = samples_.data() + kMargin;
+  table.sample(pixels, row, sample);
+  std::copy(sample, sample + kMargin, sample + columns);
+  std::copy(sample + columns - kMargin, sample + columns, sample - kMargin);
+  std::int16_t* response = response_.data() + kMargin;
+  const auto [t1, t2, t3, t4] = taps_;
+  for (int i = 0; i < columns; ++i) {
+    response[i] = static_cast<std::int16_t>(t1 * (sample[i + 1] - sample[i - 1]) + t2 * (sample[i + 2] - sample[i - 2]) +
+                                            t3 * (sample[i + 3] - sample[i - 3]) + t4 * (sample[i + 4] - sample[i - 4]));
+  }
+  response[-1] = response[columns - 1];
+  response[columns] = response[0];
+}
+
+double AzimuthEdgeFilter::estimate_noise(const AnnulusTable& table, const std::uint8_t* pixels) {
+  constexpr int kBins = 512;
+  constexpr int kBinWidth = 4;
+  std::array<int, kBins> counts{};
+  int total = 0;
+  for (int row = 0; row < static_cast<int>(table.rows().size()); row += params_.noise_row_step) {
+    filter_row(table, pixels, row);
+    const int columns = table.rows()[row].columns;
+    for (int i = 0; i < columns; ++i) ++counts[std::min(kBins - 1, std::abs(response_[kMargin + i]) / kBinWidth)];
+    total += columns;
+  }
+  int below = 0;
+  int bin = 0;
+  while (bin < kBins - 1 && 2 * (below + counts[bin]) < total) below += counts[bin++];
+  const double inside = counts[bin] > 0 ? (0.5 * total - below) / counts[bin] : 0.0;
+  return kMedianToSigma * kBinWidth * (bin + std::clamp(inside, 0.0, 1.0)) / noise_gain_;
+}
+
+void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixels, double noise,
+                             std::vector<EdgeHit>& hits) {
+  const double threshold = std::max(params_.least_step * gain_, params_.least_step_sigmas * noise * noise_gain_);
+  const int least = static_cast<int>(std::min(threshold, 32767.0));
+  for (int row = 0; row < static_cast<int>(table.rows().size()); ++row) {
+    filter_row(table, pixels, row);
+    const std::int16_t* response = response_.data() + kMargin;
+    const int columns = table.rows()[row].columns;
+    for (int block = 0; block < columns; block += kBlock) {
+      if (largest_magnitude(response + block) < least) continue;
+      for (int i = block; i < block + kBlock; ++i) {
+        const int here = response[i];
+        const bool rising = here >= least && here >= response[i - 1] && here > response[i + 1];
+        const bool falling = here <= -least && here <= response[i - 1] && here < response[i + 1];
+        if (rising || falling) add_hit(table, row, i, noise, hits);
+      }
+    }
+  }
+}
+
+void AzimuthEdgeFilter::add_hit(const AnnulusTable& table, int row, int column, double noise,
+                                std::vector<EdgeHit>& hits) const {
+  const AnnulusRow& circle = table.rows()[row];
+  const std::int16_t* response = response_.data() + kMargin + column;
+  const std::int16_t* sample = samples_.data() + kMargin + column;
+  if (!table.all_usable()) {
+    for (int i = -kReach; i <= kReach; ++i) {
+      if (!table.usable(row, (column + i + circle.columns) % circle.columns)) return;
+    }
+  }
+  std::int16_t brightest = 0;
+  for (int i = -kReach; i <= kReach; ++i) brightest = std::max(brightest, sample[i]);
+  const bool saturated = brightest > params_.saturated_level * AnnulusTable::kScale;
+  const double curvature = std::abs(2.0 * response[0] - response[-1] - response[1]);
+  const double between = curvature > 0.0 ? 0.5 * (response[1] - response[-1]) / curvature : 0.0;
+  const double sign = response[0] > 0 ? 1.0 : -1.0;
+  const double column_rad = 2.0 * std::numbers::pi / circle.columns;
+  const double noise_px =
+      curvature > 0.0 ? extremum_gain_ * noise / curvature * column_rad * circle.radius_px : circle.radius_px;
+  const double model_px = saturated ? params_.saturated_sigma_px : params_.model_sigma_px;
+  double azimuth = (column + sign * between) * column_rad;
+  if (azimuth < 0.0) azimuth += 2.0 * std::numbers::pi;
+  hits.push_back({.azimuth = static_cast<float>(azimuth),
+                  .sigma = static_cast<float>(std::hypot(noise_px, model_px) / circle.radius_px),
+                  .step = static_cast<float>(response[0] / gain_),
+                  .row = static_cast<std::int16_t>(row),
+                  .saturated = saturated});
+}
+
+}  // namespace credo::perception

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "perception/line_votes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/angles.hpp"
+
+namespace credo::perception {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+}  // namespace
+
+LineVotes::LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& camera, double bin_rad)
+    : bins_(std::max(16, static_cast<int>(std::lround(kTurn / bin_rad)))) {
+  for (int bin = 0; bin < bins_; ++bin) {
+    const double azimuth = (bin + 0.5) * kTurn / bins_;
+    directions_.push_back(camera.image_direction(azimuth - camera.T_base_camera.theta));
+    int usable = 0;
+    for (int row = 0; row < static_cast<int>(annulus.rows().size()); ++row) {
+      const int columns = annulus.rows()[row].columns;
+      const int column = static_cast<int>(std::lround(azimuth / kTurn * columns)) % columns;
+      usable += annulus.usable(row, column) ? 1 : 0;
+    }
+    usable_rows_.push_back(usable);
+  }
+  begin_.resize(2 * bins_ + 1);
+}
+
+int LineVotes::bin_of(double azimuth) const {
+  const double place = azimuth * (bins_ / kTurn);
+  return (static_cast<int>(std::floor(place)) % bins_ + bins_) % bins_;
+}
+
+double LineVotes::usable_rows(double azimuth) const { return std::max(1, usable_rows_[bin_of(azimuth)]); }
+
+void LineVotes::count(const std::vector<EdgeHit>& hits) {
+  std::fill(begin_.begin(), begin_.end(), 0);
+  for (const EdgeHit& hit : hits) ++begin_[slot_of(hit.step > 0.0F ? 1 : -1, bin_of(hit.azimuth)) + 1];
+  for (std::size_t slot = 1; slot < begin_.size(); ++slot) begin_[slot] += begin_[slot - 1];
+  order_.resize(hits.size());
+  used_.assign(hits.size(), 0);
+  // Fill every slot in the order of the hits (by row); begin_ moves to the ends, that is one slot on, and back.
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const int slot = slot_of(hits[i].step > 0.0F ? 1 : -1, bin_of(hits[i].azimuth));
+    order_[begin_[slot]++] = static_cast<std::int32_t>(i);
+  }
+  std::copy_backward(begin_.begin(), begin_.end() - 1, begin_.end());
+  begin_[0] = 0;
+}
+
+const std::vector<LinePeak>& LineVotes::peaks(double least_share, double least_chance_sigmas) {
+  peaks_.clear();
+  const double per_bin = static_cast<double>(order_.size()) / (2.0 * bins_);
+  for (const int polarity : {-1, 1}) {
+    const auto votes = [&](int bin) {
+      const int slot = slot_of(polarity, (bin + bins_) % bins_);
+      return begin_[slot + 1] - begin_[slot];
+    };
+    const auto together = [&](int bin) { return votes(bin - 1) + votes(bin) + votes(bin + 1); };
+    const double chance = 3.0 * per_bin + least_chance_sigmas * std::sqrt(3.0 * per_bin);
+    for (int bin = 0; bin < bins_; ++bin) {
+      const int here = together(bin);
+      const double least = std::max(least_share * std::max(1, usable_rows_[bin]), chance);
+      if (here < least || here < together(bin - 1) || here <= together(bin + 1)) continue;
+      peaks_.push_back({.azimuth = (bin + 0.5) * kTurn / bins_, .polarity = polarity, .votes = here, .bin = bin});
+    }
+  }
+  std::stable_sort(peaks_.begin(), peaks_.end(),
+                   [](const LinePeak& a, const LinePeak& b) { return a.votes > b.votes; });
+  return peaks_;
+}
+
+template <class Visit>
+void LineVotes::for_each_near(const LinePeak& peak, double window_rad, Visit&& visit) const {
+  const int reach = static_cast<int>(std::ceil(window_rad * bins_ / kTurn));
+  for (int bin = peak.bin - reach; bin <= peak.bin + reach; ++bin) {
+    const int slot = slot_of(peak.polarity, (bin % bins_ + bins_) % bins_);
+    for (int i = begin_[slot]; i < begin_[slot + 1]; ++i) visit(order_[i], bin);
+  }
+}
+
+double LineVotes::gather(const std::vector<EdgeHit>& hits, const AnnulusTable& annulus, const LinePeak& peak,
+                         double window_rad, double horizon_px, std::vector<RadialPoint>& points) {
+  points.clear();
+  middle_.clear();
+  for_each_near(peak, window_rad, [&](std::int32_t index, int bin) {
+    if (used_[index] != 0) return;
+    const EdgeHit& hit = hits[index];
+    const double azimuth = geometry::wrap_angle(hit.azimuth - peak.azimuth);
+    points.push_back({.azimuth = azimuth,
+                      .sigma = hit.sigma,
+                      .lever = 1.0 / annulus.rows()[hit.row].radius_px - 1.0 / horizon_px,
+                      .row = hit.row,
+                      .step = std::abs(hit.step)});
+    if (std::abs(bin - peak.bin) <= 1) middle_.push_back(azimuth);
+  });
+  std::stable_sort(points.begin(), points.end(), [](const RadialPoint& a, const RadialPoint& b) { return a.row < b.row; });
+  if (middle_.empty()) {
+    points.clear();
+    return 0.0;
+  }
+  const auto median = middle_.begin() + static_cast<std::ptrdiff_t>(middle_.size() / 2);
+  std::nth_element(middle_.begin(), median, middle_.end());
+  return *median;
+}
+
+void LineVotes::use_up(const std::vector<EdgeHit>& hits, const AnnulusTable& annulus, const LinePeak& peak,
+                       const RadialFit& fit, double window_rad, double own_rad, double horizon_px) {
+  for_each_near(peak, window_rad + own_rad, [&](std::int32_t index, int) {
+    const EdgeHit& hit = hits[index];
+    const double lever = 1.0 / annulus.rows()[hit.row].radius_px - 1.0 / horizon_px;
+    const double distance = geometry::wrap_angle(hit.azimuth - peak.azimuth) - fit.azimuth - fit.slope * lever;
+    if (std::abs(distance) <= own_rad + 3.0 * hit.sigma) used_[index] = 1;
+  });
+}
+
+}  // namespace credo::perception

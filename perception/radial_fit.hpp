@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <span>
+
+namespace credo::perception {
+
+/// One circle's word on where a radial line is.
+struct RadialPoint {
+  double azimuth = 0.0;  ///< relative to any reference near the line [rad]
+  double sigma = 0.0;    ///< [rad]
+  double lever = 0.0;    ///< 1/radius - 1/horizon radius [1/px]
+  int row = 0;
+  double step = 0.0;     ///< grey levels, >= 0
+};
+
+struct RadialFitParams {
+  double tukey = 4.685;        ///< where a point loses its weight, in robust standard deviations
+  int iterations = 8;
+  double support_sigmas = 4.0;  ///< a point within this many standard deviations supports the line
+  double error_inflation = 1.4;  ///< neighbouring circles share pixels and the sampling pattern
+};
+
+struct RadialFit {
+  double azimuth = 0.0;  ///< at the horizon ring, relative as the points are [rad]
+  double slope = 0.0;    ///< [rad px]
+  double sigma = 0.0;    ///< of the azimuth [rad]
+  double sigma_slope = 0.0;
+  double scale = 1.0;    ///< of the residuals, in expected standard deviations, >= 1
+  double contrast = 0.0;  ///< mean step of the supporting points [grey levels]
+  int rows = 0;          ///< rows with a supporting point
+  int first_row = 0;
+  int last_row = 0;
+};
+
+/// azimuth(r) = azimuth + slope (1/r - 1/horizon radius) by iteratively reweighted least squares with Tukey's weights.
+/// \param points       by row; without any, a fit without rows is returned
+/// \param start        azimuth to start from [rad]
+/// \param sigma_slope  1-sigma of the slope beforehand, about 0 [rad px], > 0
+[[nodiscard]] RadialFit fit_radial_line(std::span<const RadialPoint> points, double start, double sigma_slope,
+                                        const RadialFitParams& params);
+
+/// Whether a point supports a fitted line.
+[[nodiscard]] bool supports(const RadialPoint& point, const RadialFit& fit, const RadialFitParams& params);
+
+}  // namespace credo::perception

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "perception/radial_lines.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "geometry/angles.hpp"
+#include "perception/line_votes.hpp"
+
+namespace credo::perception {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+void check(const sensors::OmniCamera& camera) {
+  if (!(camera.inner_radius_px > 0.0) || !(camera.outer_radius_px > camera.inner_radius_px)) {
+    throw std::invalid_argument("the camera's annulus needs an inner radius above 0 and an outer one above that");
+  }
+  if (!camera.mask.empty() && (camera.mask.type() != CV_8UC1 || camera.mask.cols != camera.width_px ||
+                               camera.mask.rows != camera.height_px)) {
+    throw std::invalid_argument("the camera's mask must be an 8-bit grey image of the camera's resolution");
+  }
+}
+
+void check(const sensors::OmniImage& image, const sensors::OmniCamera& camera) {
+  const cv::Mat& pixels = image.pixels;
+  if (pixels.type() != CV_8UC1 || pixels.cols != camera.width_px || pixels.rows != camera.height_px) {
+    throw std::invalid_argument("expected an 8-bit grey image of " + std::to_string(camera.width_px) + " x " +
+                                std::to_string(camera.height_px) + " pixels, found " + std::to_string(pixels.cols) +
+                                " x " + std::to_string(pixels.rows) + " with " + std::to_string(pixels.channels()) +
+                                " channels of " + std::to_string(8 * pixels.elemSize1()) + " bits");
+  }
+}
+
+std::vector<double> annulus_radii(const sensors::OmniCamera& camera, const RadialLineParams& params) {
+  const double first = camera.inner_radius_px + params.border_px;
+  const double last = camera.outer_radius_px - params.border_px;
+  if (last <= first) throw std::invalid_argument("the camera's annulus is too narrow for radial lines");
+  return evenly_spaced_radii(first, last, params.row_step_px);
+}
+
+double horizon_radius(const sensors::OmniCamera& camera) {
+  return camera.horizon_radius_px > 0.0 ? camera.horizon_radius_px
+                                        : 0.5 * (camera.inner_radius_px + camera.outer_radius_px);
+}
+
+/// Largest |tangent of the elevation| between the horizon ring and a border of the annulus: what a tilt is multiplied by.
+double tilt_reach(const sensors::OmniCamera& camera) {
+  const double horizon = horizon_radius(camera);
+  const double far = std::max(camera.outer_radius_px - horizon, horizon - camera.inner_radius_px);
+  // A cone's elevation grows by 1/focal per pixel; a paraboloid's by 1/horizon radius.
+  return far / (camera.mirror && camera.mirror->focal_px > 0.0 ? camera.mirror->focal_px : horizon);
+}
+
+}  // namespace
+
+struct RadialLineExtractor::State {
+  State(const sensors::OmniCamera& camera_in, const RadialLineParams& params_in);
+
+  void recenter();
+  bool look(const std::uint8_t* pixels, Scene& scene);
+  void correct_hits();
+  void find_lines(std::vector<RadialLine>& lines);
+  void fit_peak(const LinePeak& peak, std::vector<RadialLine>& lines);
+
+  RadialLineParams params;
+  sensors::OmniCamera camera;
+  RimCalibration rim;
+  AnnulusTable annulus;
+  AnnulusTable gray;
+  AzimuthEdgeFilter filter;
+  StrutFilter struts;
+  LineVotes votes;
+  double horizon_px;
+  double sigma_slope;  ///< of a line's slope beforehand [rad px]
+  double noise = 0.0;
+  cv::Mat gapless;  ///< copy of an image whose rows have gaps
+  std::vector<EdgeHit> hits;
+  std::vector<RadialPoint> points;
+  std::vector<std::int16_t> scratch;
+};
+
+RadialLineExtractor::State::State(const sensors::OmniCamera& camera_in, const RadialLineParams& params_in)
+    : params(params_in),
+      camera((check(camera_in), camera_in)),
+      rim(camera, params.rim),
+      annulus(camera, camera.center_px, annulus_radii(camera, params), params.column_px),
+      gray(camera, camera.center_px, gray_circles(camera, params.gray), params.column_px),
+      filter(params.edges, params.column_px, annulus.max_columns()),
+      struts(camera, camera.center_px, params.column_px, params.struts),
+      votes(annulus, camera, params.bin_rad),
+      horizon_px(horizon_radius(camera)),
+      sigma_slope(0.0),
+      scratch(static_cast<std::size_t>(std::max(annulus.max_columns(), gray.max_columns()))) {}
+
+/// Makes the tables anew about the rim's centre once that has left the tables' centre; in between, hits are corrected.
+void RadialLineExtractor::State::recenter() {
+  if ((rim.center_px() - annulus.center_px()).norm() <= params.recenter_px) return;
+  const Eigen::Vector2d& center = rim.center_px();
+  annulus = AnnulusTable(camera, center, annulus_radii(camera, params), params.column_px);
+  gray = AnnulusTable(camera, center, gray_circles(camera, params.gray), params.column_px);
+  struts.recenter(camera, center, params.column_px);
+  votes = LineVotes(annulus, camera, params.bin_rad);
+}
+
+/// \returns whether there is anything to be seen in the image.
+bool RadialLineExtractor::State::look(const std::uint8_t* pixels, Scene& scene) {
+  std::array<int, 256> histogram{};
+  int total = 0;
+  for (int row = 0; row < static_cast<int>(annulus.rows().size()); row += params.edges.noise_row_step) {
+    annulus.sample(pixels, row, scratch.data());
+    const int columns = annulus.rows()[row].columns;
+    for (int i = 0; i < columns; ++i) {
+      if (!annulus.usable(row, i)) continue;
+      ++histogram[scratch[i] / AnnulusTable::kScale];
+      ++total;
+    }
+  }
+  const auto level_at = [&](double share) {
+    int below = 0;
+    int level = 0;
+    while (level < 255 && below + histogram[level] < share * total) below += histogram[level++];
+    return level;
+  };
+  int saturated = 0;
+  for (int level = 0; level < 256; ++level) saturated += level > params.edges.saturated_level ? histogram[level] : 0;
+  scene.saturated_share = total > 0 ? static_cast<double>(saturated) / total : 0.0;
+  noise = filter.estimate_noise(annulus, pixels);
+  const double least = std::max(params.least_spread, params.least_spread_sigmas * noise);
+  return total > 0 && level_at(0.9) - level_at(0.1) >= least &&
+         scene.saturated_share <= params.largest_saturated_share;
+}
+
+/// Moves the hits to where they are seen from the rim's centre: a centre that is off by (du, dv) turns a point at radius r
+/// and image angle phi by (du sin phi - dv cos phi) / r.
+void RadialLineExtractor::State::correct_hits() {
+  const Eigen::Vector2d offset = rim.center_px() - annulus.center_px();
+  if (offset.norm() == 0.0) return;
+  for (EdgeHit& hit : hits) {
+    const Eigen::Vector2d& direction = votes.image_direction(hit.azimuth);
+    const double turn = camera.azimuth_sign * (offset.x() * direction.y() - offset.y() * direction.x()) /
+                        annulus.rows()[hit.row].radius_px;
+    double azimuth = hit.azimuth + turn;
+    if (azimuth < 0.0) azimuth += kTurn;
+    if (azimuth >= kTurn) azimuth -= kTurn;
+    hit.azimuth = static_cast<float>(azimuth);
+  }
+}
+
+void RadialLineExtractor::State::fit_peak(const LinePeak& peak, std::vector<RadialLine>& lines) {
+  const double start = votes.gather(hits, annulus, peak, params.window_rad, horizon_px, points);
+  if (points.empty()) return;
+  const RadialFit fit = fit_radial_line(points, start, sigma_slope, params.fit);
+  const double usable_rows = votes.usable_rows(peak.azimuth + fit.azimuth);
+  if (fit.rows < params.least_visible_share * usable_rows || fit.contrast < params.least_contrast) return;
+  const double steepest = params.largest_slope_sigmas * std::hypot(sigma_slope, fit.sigma_slope) + params.slope_margin_px;
+  if (std::abs(fit.slope) > steepest) return;
+  const double calibration = rim.sigma_px() / horizon_px;
+  lines.push_back({.azimuth = geometry::wrap_angle(peak.azimuth + fit.azimuth),
+                   .sigma = std::hypot(fit.sigma, params.floor_sigma_rad, calibration),
+                   .contrast = fit.contrast,
+                   .polarity = peak.polarity,
+                   .visible_share = std::min(1.0, fit.rows / usable_rows),
+                   .slope = fit.slope});
+  votes.use_up(hits, annulus, peak, fit, params.window_rad, params.own_hits_rad, horizon_px);
+}
+
+void RadialLineExtractor::State::find_lines(std::vector<RadialLine>& lines) {
+  votes.count(hits);
+  for (const LinePeak& peak : votes.peaks(params.least_visible_share, params.least_chance_sigmas)) {
+    fit_peak(peak, lines);
+  }
+  std::sort(lines.begin(), lines.end(), [](const RadialLine& a, const RadialLine& b) { return a.azimuth < b.azimuth; });
+}
+
+RadialLineExtractor::RadialLineExtractor(const sensors::OmniCamera& camera, const RadialLineParams& params)
+    : state_(std::make_unique<State>(camera, params)) {}
+RadialLineExtractor::~RadialLineExtractor() = default;
+RadialLineExtractor::RadialLineExtractor(RadialLineExtractor&&) noexcept = default;
+RadialLineExtractor& RadialLineExtractor::operator=(RadialLineExtractor&&) noexcept = default;
+
+Eigen::Vector2d RadialLineExtractor::center_px() const { return state_->rim.center_px(); }
+double RadialLineExtractor::center_sigma_px() const { return state_->rim.sigma_px(); }
+
+void RadialLineExtractor::extract(const sensors::OmniImage& image, Scene& scene) {
+  State& state = *state_;
+  check(image, state.camera);
+  scene.radial_lines.clear();
+  scene.gray.values.clear();
+  scene.camera_origin = {state.camera.T_base_camera.x, state.camera.T_base_camera.y};
+  const cv::Mat* pixels = &image.pixels;
+  if (!pixels->isContinuous()) {
+    pixels->copyTo(state.gapless);
+    pixels = &state.gapless;
+  }
+  const std::uint8_t* first = pixels->ptr<std::uint8_t>();
+  scene.camera_seen = state.look(first, scene);
+  if (!scene.camera_seen) return;
+  state.rim.update(first);
+  state.recenter();
+  state.hits.clear();
+  state.filter.find(state.annulus, first, state.noise, state.hits);
+  state.correct_hits();
+  // A centre that is off by c and a tilt t give slopes of c and of t tan(elevation) / (1/r - 1/horizon radius).
+  const double lever = 1.0 / state.camera.inner_radius_px - 1.0 / state.camera.outer_radius_px;
+  state.sigma_slope = std::hypot(state.rim.sigma_px(), state.camera.accuracy.tilt_rad * tilt_reach(state.camera) / lever,
+                                 1e-3);
+  state.find_lines(scene.radial_lines);
+  state.struts.remove(first, state.noise, scene.radial_lines);
+  read_gray_curve(state.gray, first, state.noise, state.params.gray.bins, state.scratch, scene.gray);
+}
+
+}  // namespace credo::perception
