@@ -17,6 +17,9 @@ namespace credo::geometry {
 /// a - b, wrapped to (-pi, pi]. [rad]
 [[nodiscard]] inline double angle_difference(double a, double b) { return wrap_angle(a - b); }
 
+/// An angle between lines, which have no direction: wrapped to (-pi/2, pi/2]. [rad]
+[[nodiscard]] inline double wrap_line_angle(double angle) { return 0.5 * wrap_angle(2.0 * angle); }
+
 [[nodiscard]] constexpr double to_radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 [[nodiscard]] constexpr double to_degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 

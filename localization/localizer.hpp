@@ -9,35 +9,63 @@
 
 #include "geometry/floor_plan.hpp"
 #include "localization/localization.hpp"
+#include "localization/localization_belief.hpp"
+#include "localization/map_matching.hpp"
+#include "localization/observations.hpp"
+#include "localization/pose_solver.hpp"
 #include "tracking/tracker.hpp"
 
 namespace credo::localization {
 
-struct LocalizerParams {  // the owner of this file completes it
+/// How the pose is predicted where no odometry says how the robot moved: by its latest velocity.
+struct ConstantVelocityParams {
+  double translation_sigma_share = 0.5;  ///< of the distance that the velocity predicts
+  double translation_sigma_m = 0.10;
+  double rotation_sigma_share = 0.5;     ///< of the turn that the velocity predicts
+  double rotation_sigma_rad = 0.10;
+};
+
+struct LocalizerParams {
   perception::Method method = perception::Method::kDefault;
   tracking::TrackerParams tracker;
+  LandmarkMapParams map;
+  MapMatchingParams matching;
+  ObservationParams observations;
+  PoseSolverParams solver;
+  LocalizationBeliefParams belief;
+  StatusParams status;
+  ConstantVelocityParams constant_velocity;
+  int matching_rounds = 3;         ///< map matching and pose in turn: each round knows the pose better
+  int contradictions_allowed = 1;  ///< a track that contradicts the pose more often in a row loses its landmark
+
+  /// The parameters with `method` handed down to every part.
+  [[nodiscard]] LocalizerParams with_method(perception::Method chosen) const;
 };
 
 /// Tracks + map -> Localization: the dynamic localization of Clerentin et al., sec. 4.
 class Localizer {
  public:
-  /// \param initial  the manual initial matching; absent: poses are relative to the start, status initializing
+  /// \param plan     empty: there is no plan, and poses are relative to the start with status initializing
+  /// \param initial  the manual initial matching; absent: likewise relative to the start
   Localizer(const geometry::FloorPlan& plan, const sensors::Rig& rig, const std::optional<geometry::PoseEstimate>& initial,
             const LocalizerParams& params = {});
   ~Localizer();
   Localizer(Localizer&&) noexcept;
   Localizer& operator=(Localizer&&) noexcept;
 
-  /// Gives an acquisition without odometry the path that the latest velocity predicts; leaves any other as it is.
-  void with_path(sensors::Acquisition& acquisition) const;
+  /// Before a scene is made of it: gives an acquisition without odometry the path that the latest velocity predicts, and
+  /// remembers the path for pose_at.
+  void with_path(sensors::Acquisition& acquisition);
 
   /// One scene. `motion` is Acquisition::motion.
   Localization update(const perception::Scene& scene, const std::optional<geometry::PoseEstimate>& motion);
 
-  /// The pose at any time between the last two updates, and shortly after the latest; with its covariance and the belief.
+  /// The pose at any time between the last two updates, and shortly before or after; with its covariance and the belief.
+  /// Vacuous belief before the first update.
   [[nodiscard]] evidence::Believed<geometry::PoseEstimate> pose_at(sensors::Timestamp time) const;
 
   [[nodiscard]] const std::vector<tracking::Track>& tracks() const;
+  [[nodiscard]] const LandmarkMap& map() const;
   [[nodiscard]] const LocalizerParams& params() const;
 
  private:

@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "localization/landmark_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace credo::localization {
+namespace {
+
+using geometry::angle_difference;
+using geometry::Segment;
+
+constexpr double kPi = std::numbers::pi;
+
+/// Disjoint sets over 0 .. n-1.
+class Groups {
+ public:
+  explicit Groups(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(std::size_t i, std::size_t j) { parent_[std::max(find(i), find(j))] = std::min(find(i), find(j)); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// A wall's end (or a wall that passes by) at a junction.
+struct Arm {
+  std::size_t wall = 0;
+  double direction = 0.0;
+};
+
+struct Junction {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  std::vector<Arm> arms;
+};
+
+Eigen::Vector2d end_of(const std::vector<Segment>& walls, std::size_t end) {
+  return end % 2 == 0 ? walls[end / 2].a : walls[end / 2].b;
+}
+
+double angle_of(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
+
+/// Wall ends within the tolerance of each other become one junction at their mean; the two ends of one wall never do.
+std::vector<Junction> join_ends(const std::vector<Segment>& walls, double tolerance) {
+  const std::size_t ends = 2 * walls.size();
+  Groups groups(ends);
+  for (std::size_t i = 0; i < ends; ++i)
+    for (std::size_t j = i + 1; j < ends; ++j)
+      if (i / 2 != j / 2 && (end_of(walls, i) - end_of(walls, j)).norm() <= tolerance &&
+          groups.find(i) != groups.find(j ^ 1U) && groups.find(i ^ 1U) != groups.find(j))
+        groups.unite(i, j);
+  std::vector<std::size_t> junction_of(ends, ends);
+  std::vector<Junction> junctions;
+  for (std::size_t i = 0; i < ends; ++i) {
+    std::size_t& junction = junction_of[groups.find(i)];
+    if (junction == ends) {
+      junction = junctions.size();
+      junctions.emplace_back();
+    }
+    Junction& joined = junctions[junction];
+    joined.arms.push_back({i / 2, angle_of(end_of(walls, i ^ 1U) - end_of(walls, i))});
+    joined.position += (end_of(walls, i) - joined.position) / static_cast<double>(joined.arms.size());
+  }
+  return junctions;
+}
+
+/// An end that touches the interior of another wall joins it: the wall passes by with two arms.
+void join_interiors(const std::vector<Segment>& walls, double tolerance, std::vector<Junction>& junctions) {
+  for (Junction& junction : junctions)
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+      const bool ends_here = std::any_of(junction.arms.begin(), junction.arms.end(),
+                                         [w](const Arm& arm) { return arm.wall == w; });
+      if (ends_here || geometry::distance(junction.position, walls[w]) > tolerance) continue;
+      const double along = (junction.position - walls[w].a).dot(walls[w].direction());
+      if (along <= tolerance || along >= walls[w].length() - tolerance) continue;
+      const double direction = angle_of(walls[w].b - walls[w].a);
+      junction.arms.push_back({w, direction});
+      junction.arms.push_back({w, geometry::wrap_angle(direction + kPi)});
+    }
+}
+
+/// Walls that go straight on at a junction are one.
+Groups join_collinear(const std::vector<Segment>& walls, const std::vector<Junction>& junctions, double max_turn) {
+  Groups groups(walls.size());
+  for (const Junction& junction : junctions)
+    for (std::size_t i = 0; i < junction.arms.size(); ++i)
+      for (std::size_t j = i + 1; j < junction.arms.size(); ++j) {
+        const double turn = std::abs(angle_difference(junction.arms[i].direction + kPi, junction.arms[j].direction));
+        if (turn < max_turn) groups.unite(junction.arms[i].wall, junction.arms[j].wall);
+      }
+  return groups;
+}
+
+/// The line through all the ends (total least squares) between the outermost of them.
+WallLandmark wall_through(const std::vector<Eigen::Vector2d>& ends) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& end : ends) mean += end / static_cast<double>(ends.size());
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (const Eigen::Vector2d& end : ends) {
+    const Eigen::Vector2d d = end - mean;
+    xx += d.x() * d.x(), xy += d.x() * d.y(), yy += d.y() * d.y();
+  }
+  const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  WallLandmark wall;
+  wall.direction = {std::cos(angle), std::sin(angle)};
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Eigen::Vector2d& end : ends) {
+    low = std::min(low, (end - mean).dot(wall.direction));
+    high = std::max(high, (end - mean).dot(wall.direction));
+  }
+  wall.extent = {mean + low * wall.direction, mean + high * wall.direction};
+  wall.length_m = high - low;
+  return wall;
+}
+
+/// How far the ends of a group stray from one line. [m]
+double straightness(const WallLandmark& wall, const std::vector<Eigen::Vector2d>& ends) {
+  double worst = 0.0;
+  for (const Eigen::Vector2d& end : ends) worst = std::max(worst, std::abs((end - wall.extent.a).dot(wall.normal())));
+  return worst;
+}
+
+/// Crossing of a ray with a segment: the distance along the ray, or infinity. [m]
+double crossing(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, const Segment& segment) {
+  const Eigen::Vector2d along = segment.b - segment.a, to = segment.a - origin;
+  const double det = along.x() * direction.y() - along.y() * direction.x();
+  if (std::abs(det) < 1e-12) return std::numeric_limits<double>::infinity();
+  const double distance = (along.x() * to.y() - along.y() * to.x()) / det;
+  const double share = (direction.x() * to.y() - direction.y() * to.x()) / det;
+  return distance > 0.0 && share >= 0.0 && share <= 1.0 ? distance : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Eigen::Matrix2d WallLandmark::plan_covariance(double along_m, double uncertainty_m) const {
+  const double share = along_m / length_m, variance = uncertainty_m * uncertainty_m;
+  const double across = variance * ((1.0 - share) * (1.0 - share) + share * share);
+  const double angle = 2.0 * variance / (length_m * length_m);
+  const double both = variance * (2.0 * share - 1.0) / length_m;
+  return (Eigen::Matrix2d() << across, both, both, angle).finished();
+}
+
+LandmarkMap::LandmarkMap(const geometry::FloorPlan& plan, const LandmarkMapParams& params)
+    : params_(params), uncertainty_m_(plan.uncertainty_m) {
+  for (const Segment& wall : plan.walls)
+    if (wall.length() > 0.0) surfaces_.push_back(wall);
+  const double tolerance = std::max(params.join_tolerance_m, 3.0 * plan.uncertainty_m);
+  std::vector<Junction> junctions = join_ends(surfaces_, tolerance);
+  join_interiors(surfaces_, tolerance, junctions);
+
+  Groups groups = join_collinear(surfaces_, junctions, params.max_collinear_turn_rad);
+  for (std::size_t first = 0; first < surfaces_.size(); ++first) {
+    if (groups.find(first) != first) continue;
+    std::vector<Eigen::Vector2d> ends;
+    std::vector<Segment> members;
+    for (std::size_t w = first; w < surfaces_.size(); ++w)
+      if (groups.find(w) == first) {
+        members.push_back(surfaces_[w]);
+        ends.push_back(surfaces_[w].a), ends.push_back(surfaces_[w].b);
+      }
+    const WallLandmark whole = wall_through(ends);
+    const bool straight = straightness(whole, ends) <= tolerance;
+    const auto keep = [&](const WallLandmark& wall) {
+      if (wall.length_m >= params_.min_wall_length_m) walls_.push_back(wall);
+    };
+    if (straight) keep(whole);
+    else
+      for (const Segment& member : members) keep(wall_through({member.a, member.b}));
+  }
+
+  for (const Junction& junction : junctions) {
+    PointLandmark point{.position = junction.position, .vertical = false, .arms = {}};
+    for (const Arm& arm : junction.arms) point.arms.push_back(arm.direction);
+    std::sort(point.arms.begin(), point.arms.end());
+    points_.push_back(point);
+  }
+  for (const Eigen::Vector2d& vertical : plan.verticals)
+    points_.push_back({.position = vertical, .vertical = true, .arms = {}});
+}
+
+std::optional<perception::PrimitiveType> LandmarkMap::type_from(const PointLandmark& point,
+                                                                const Eigen::Vector2d& viewpoint) const {
+  if (point.vertical) return perception::PrimitiveType::kOther;
+  if (point.arms.size() == 1) return perception::PrimitiveType::kEdge;
+  const double to_viewer = angle_of(viewpoint - point.position);
+  for (std::size_t i = 0; i < point.arms.size(); ++i) {
+    const double from = point.arms[i];
+    const double raw = point.arms[(i + 1) % point.arms.size()] - from;
+    const double sector = raw <= 0.0 ? raw + 2.0 * kPi : raw;
+    double offset = std::fmod(to_viewer - from, 2.0 * kPi);
+    if (offset < 0.0) offset += 2.0 * kPi;
+    if (offset > sector) continue;
+    const double solid = 2.0 * kPi - sector;
+    if (sector >= params_.min_corner_angle_rad && sector <= params_.max_corner_angle_rad)
+      return perception::PrimitiveType::kCorner;
+    if (solid >= params_.min_corner_angle_rad && solid <= params_.max_corner_angle_rad)
+      return perception::PrimitiveType::kEdge;
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool LandmarkMap::sees(const Eigen::Vector2d& viewpoint, const Eigen::Vector2d& target, double margin_m) const {
+  const Eigen::Vector2d way = target - viewpoint;
+  const double reach = way.norm() - margin_m;
+  if (reach <= 0.0) return true;
+  const Eigen::Vector2d direction = way.normalized();
+  return std::none_of(surfaces_.begin(), surfaces_.end(), [&](const Segment& surface) {
+    return crossing(viewpoint, direction, surface) < reach;
+  });
+}
+
+double LandmarkMap::cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_range_m) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Segment& surface : surfaces_) nearest = std::min(nearest, crossing(origin, direction, surface));
+  return nearest <= max_range_m ? nearest : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace credo::localization

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/floor_plan.hpp"
+#include "perception/scene.hpp"
+#include "tracking/track.hpp"
+
+namespace credo::localization {
+
+struct LandmarkMapParams {
+  double join_tolerance_m = 0.05;     ///< wall ends closer than this, or than 3 uncertainties, are one junction
+  double min_wall_length_m = 0.3;     ///< shorter walls hide what is behind them, but are no landmarks
+  double max_collinear_turn_rad = 0.09;  ///< joined walls that turn by less, and stay on the line, are one wall
+  double min_corner_angle_rad = 0.7854;  ///< a junction's angle for a corner or an edge: 45 ..
+  double max_corner_angle_rad = 2.3562;  ///< .. 135 degrees
+};
+
+/// A wall of the plan: collinear joined walls are one.
+struct WallLandmark {
+  geometry::Segment extent;
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
+  double length_m = 0.0;
+
+  [[nodiscard]] Eigen::Vector2d normal() const { return {-direction.y(), direction.x()}; }
+  /// Covariance of (offset across the line at `along` from extent.a, angle) from independent errors of both ends.
+  [[nodiscard]] Eigen::Matrix2d plan_covariance(double along_m, double uncertainty_m) const;
+};
+
+/// Where walls meet, or one ends; or a mark without relief.
+struct PointLandmark {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  bool vertical = false;        ///< a mark without relief: type `other` from wherever it is seen
+  std::vector<double> arms;     ///< directions in which walls leave the junction, growing, (-pi, pi] [rad]
+};
+
+/// The four lists of the theoretical map (Clerentin et al., sec. 4.2) as seen from a pose: a junction is a corner from
+/// within its sector below 180 degrees and an edge from outside. Ids are dense: walls first, then points.
+class LandmarkMap {
+ public:
+  explicit LandmarkMap(const geometry::FloorPlan& plan, const LandmarkMapParams& params = {});
+
+  [[nodiscard]] const std::vector<WallLandmark>& walls() const { return walls_; }
+  [[nodiscard]] const std::vector<PointLandmark>& points() const { return points_; }
+  [[nodiscard]] double uncertainty_m() const { return uncertainty_m_; }
+  [[nodiscard]] bool empty() const { return walls_.empty() && points_.empty(); }
+
+  [[nodiscard]] tracking::LandmarkId wall_id(std::size_t wall) const { return static_cast<int>(wall); }
+  [[nodiscard]] tracking::LandmarkId point_id(std::size_t point) const {
+    return static_cast<int>(walls_.size() + point);
+  }
+  [[nodiscard]] bool is_wall(tracking::LandmarkId id) const { return id < static_cast<int>(walls_.size()); }
+  /// Precondition: is_wall(id).
+  [[nodiscard]] const WallLandmark& wall(tracking::LandmarkId id) const { return walls_[static_cast<std::size_t>(id)]; }
+  /// Precondition: !is_wall(id).
+  [[nodiscard]] const PointLandmark& point(tracking::LandmarkId id) const {
+    return points_[static_cast<std::size_t>(id) - walls_.size()];
+  }
+
+  /// The type under which a point is seen from a place; nothing where it gives neither a corner nor an edge.
+  [[nodiscard]] std::optional<perception::PrimitiveType> type_from(const PointLandmark& point,
+                                                                   const Eigen::Vector2d& viewpoint) const;
+
+  /// Whether no wall of the plan stands between the viewpoint and the target, `margin_m` before the target excepted.
+  [[nodiscard]] bool sees(const Eigen::Vector2d& viewpoint, const Eigen::Vector2d& target, double margin_m) const;
+
+  /// Distance to the first wall of the plan along a ray, up to `max_range_m`; infinity where there is none. [m]
+  [[nodiscard]] double cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_range_m) const;
+
+ private:
+  LandmarkMapParams params_;
+  double uncertainty_m_ = 0.0;
+  std::vector<geometry::Segment> surfaces_;  ///< the plan's walls as they are: what hides
+  std::vector<WallLandmark> walls_;
+  std::vector<PointLandmark> points_;
+};
+
+}  // namespace credo::localization

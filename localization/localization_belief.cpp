@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "localization/localization_belief.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace credo::localization {
+
+using evidence::BinaryMass;
+
+evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& evidence,
+                                              const LocalizationBeliefParams& params) {
+  const double ratio = evidence.detected > 0.0 ? evidence.explained / evidence.detected
+                                               : std::numeric_limits<double>::quiet_NaN();
+  const std::array criteria{params.count(evidence.matched), params.ratio(ratio)};
+  std::vector<evidence::Part> parts;
+  for (const tracking::Track& track : evidence.tracks) {
+    if (track.landmark == tracking::kNoLandmark || track.state != tracking::TrackState::kTracked) continue;
+    const bool wall = track.type == perception::PrimitiveType::kWall;
+    parts.push_back({track.existence, wall ? params.wall_reliability : params.other_reliability});
+  }
+  if (params.method == perception::Method::kDefault) return evidence::whole_from_mean_part(criteria, parts);
+  const auto fused = evidence::whole_from_all_parts(criteria, parts, evidence::FusionRule::kDempster);
+  return fused.value_or(evidence::FusedBinaryMass{BinaryMass::vacuous(), 1.0});
+}
+
+void judge(Localization& localization, bool camera_seen, bool range_finder_seen, const StatusParams& params) {
+  const Eigen::Matrix3d& P = localization.estimate.covariance;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> position(P.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
+  const double sigma = std::sqrt(position.eigenvalues()(1));
+  const BinaryMass& belief = localization.belief;
+  localization.reason.clear();
+  const auto because = [&localization](const char* words) {
+    if (!localization.reason.empty()) localization.reason += "; ";
+    localization.reason += words;
+  };
+  if (!camera_seen) because("camera dark or missing");
+  if (!range_finder_seen) because("range finder missing");
+  if (localization.matched == 0) because("nothing matches the plan: the pose is predicted");
+  else if (localization.matched < 3) because("few landmarks");
+  if (belief.no > belief.yes) because("most of what is seen is not in the plan");
+  if (sigma > params.max_position_sigma_m) because("position too uncertain");
+  if (std::sqrt(P(2, 2)) > params.max_heading_sigma_rad) because("heading too uncertain");
+
+  if (belief.no > belief.yes) {
+    localization.status = Status::kLost;
+  } else if (localization.matched == 0 || belief.yes <= params.min_belief_yes || sigma > params.max_position_sigma_m ||
+             std::sqrt(P(2, 2)) > params.max_heading_sigma_rad) {
+    localization.status = Status::kUncertain;
+    if (localization.reason.empty()) because("belief is weak");
+  } else {
+    localization.status = Status::kLocalized;
+    localization.reason.clear();
+  }
+}
+
+}  // namespace credo::localization

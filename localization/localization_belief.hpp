@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <span>
+
+#include "evidence/belief_shapes.hpp"
+#include "evidence/whole_belief.hpp"
+#include "localization/localization.hpp"
+#include "perception/observer.hpp"
+#include "tracking/track.hpp"
+
+namespace credo::localization {
+
+/// The p + 2 criteria of Clerentin et al., sec. 4.5. The breakpoints are ours (docs/equations.md).
+struct LocalizationBeliefParams {
+  perception::Method method = perception::Method::kDefault;
+  /// On the number of primitives that the pose rests on.
+  evidence::RampBelief count{.max_yes = 0.8, .yes_full_until = 6.0, .yes_zero_from = 2.0,
+                             .max_no = 0.6, .no_zero_until = 3.0, .no_full_from = 1.0};
+  /// On matched / detected.
+  evidence::RampBelief ratio{.max_yes = 0.8, .yes_full_until = 0.8, .yes_zero_from = 0.4,
+                             .max_no = 0.6, .no_zero_until = 0.5, .no_full_from = 0.2};
+  double wall_reliability = 0.3;   ///< of a wall's track as a criterion
+  double other_reliability = 0.6;  ///< of a corner's, an edge's, another's: the strong azimuths
+};
+
+/// What the belief in a localization rests on.
+struct LocalizationEvidence {
+  int matched = 0;         ///< primitives that the pose rests on
+  double detected = 0.0;   ///< against which the ratio is taken
+  double explained = 0.0;  ///< of them, matched
+  std::span<const tracking::Track> tracks;
+};
+
+/// Mass on "the localization is correct". The tracks that were matched in this acquisition and have a landmark take part.
+[[nodiscard]] evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& evidence,
+                                                            const LocalizationBeliefParams& params = {});
+
+struct StatusParams {
+  double min_belief_yes = 0.5;           ///< localized asks for more
+  double max_position_sigma_m = 0.125;   ///< of the worst direction: two of them stay within 0.25 m
+  double max_heading_sigma_rad = 0.0436;  ///< 2.5 degrees: two of them stay within 5 degrees
+};
+
+/// The status that belief and covariance give to an absolute pose, and the reason where it is not localized.
+void judge(Localization& localization, bool camera_seen, bool range_finder_seen, const StatusParams& params = {});
+
+}  // namespace credo::localization

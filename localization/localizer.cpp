@@ -1,0 +1,376 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "localization/localizer.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace credo::localization {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using geometry::Pose2;
+using geometry::PoseEstimate;
+using perception::Primitive;
+using perception::PrimitiveType;
+using perception::Scene;
+using sensors::Timestamp;
+using tracking::kNoLandmark;
+using tracking::LandmarkId;
+using tracking::Match;
+using tracking::Track;
+
+/// The start of a run without a plan or without an initial pose: the origin of its own frame, exactly.
+constexpr double kOriginSigma = 1e-6;
+
+/// A pose at an acquisition, with the belief in it.
+struct Fix {
+  Timestamp time = 0;
+  PoseEstimate estimate;
+  evidence::BinaryMass belief;
+};
+
+SplitPose moved(const SplitPose& from, const PoseEstimate& motion) {
+  const PoseEstimate independent = geometry::compose({from.pose, from.independent}, motion);
+  const PoseEstimate correlated = geometry::compose({from.pose, from.correlated}, {motion.pose, Matrix3d::Zero()});
+  return {independent.pose, independent.covariance, correlated.covariance};
+}
+
+/// The share `share` of a velocity's motion, for the time `of` the time it was observed in.
+Pose2 scaled(const Pose2& motion, double share) { return geometry::interpolate({}, motion, share); }
+
+}  // namespace
+
+LocalizerParams LocalizerParams::with_method(perception::Method chosen) const {
+  LocalizerParams params = *this;
+  params.method = params.tracker.method = params.matching.method = params.belief.method = chosen;
+  return params;
+}
+
+struct Localizer::State {
+  State(const geometry::FloorPlan& plan, const sensors::Rig& rig, const std::optional<PoseEstimate>& initial,
+        const LocalizerParams& p)
+      : params(p.with_method(p.method)), map(plan, params.map), matcher(map, params.matching),
+        solver(rig, params.solver), tracker(params.tracker), absolute(initial.has_value() && !map.empty()) {
+    if (absolute) {
+      current.pose = initial->pose;
+      current.independent = initial->covariance;
+    } else {
+      current.independent = kOriginSigma * kOriginSigma * Matrix3d::Identity();
+    }
+  }
+
+  LocalizerParams params;
+  LandmarkMap map;
+  MapMatcher matcher;
+  PoseSolver solver;
+  tracking::Tracker tracker;
+  bool absolute;                 ///< poses are in the map frame, not relative to the start
+  bool started = false;
+  SplitPose current;
+  Matrix3d calibration = Matrix3d::Zero();
+  Fix latest, before;
+  sensors::MotionPath path;
+  std::map<int, int> contradictions;  ///< in a row, by track id
+
+  // One update's workspace.
+  std::vector<Observation> observations;
+  std::vector<bool> wall_in_use;
+  std::vector<int> unmatched;
+  std::vector<LandmarkId> taken;
+  std::vector<MapMatch> new_matches;
+
+  [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
+  [[nodiscard]] PoseEstimate estimate() const { return {current.pose, current.covariance() + calibration}; }
+  void expect_landmarks(const SplitPose& predicted);
+  void observe_tracks(const Scene& scene, const std::vector<Match>& matches);
+  void observe_landmark(const Scene& scene, int primitive, LandmarkId landmark, int track);
+  void list_unmatched(const Scene& scene);
+  void match_map(const Scene& scene, const SplitPose& predicted);
+  void solve(const SplitPose& predicted);
+  void label_tracks(const std::vector<Match>& matches);
+  void start_tracks(const Scene& scene);
+  void drop_contradicting_landmarks(const PoseSolution& solution);
+  void update_motion_only(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
+  [[nodiscard]] Localization report(const Scene& scene) const;
+};
+
+/// Odometry's motion; else what the latest velocity predicts; else rest, with the uncertainty of not knowing.
+PoseEstimate Localizer::State::predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const {
+  if (motion && params.method == perception::Method::kDefault) return *motion;
+  const ConstantVelocityParams& cv = params.constant_velocity;
+  Pose2 step;
+  const double last_interval = sensors::seconds_between(before.time, latest.time);
+  if (before.time != 0 && last_interval > 0.0) {
+    const double share = sensors::seconds_between(latest.time, time) / last_interval;
+    step = scaled(before.estimate.pose.inverse() * latest.estimate.pose, std::clamp(share, 0.0, 5.0));
+  }
+  const double sigma_t = cv.translation_sigma_m + cv.translation_sigma_share * std::hypot(step.x, step.y);
+  const double sigma_r = cv.rotation_sigma_rad + cv.rotation_sigma_share * std::abs(step.theta);
+  const Eigen::Vector3d variance(sigma_t * sigma_t, sigma_t * sigma_t, sigma_r * sigma_r);
+  return {step, variance.asDiagonal()};
+}
+
+/// Map and tracks agree: a track with a landmark is looked for where the map has it.
+void Localizer::State::expect_landmarks(const SplitPose& predicted) {
+  if (params.method == perception::Method::kPaper) return;
+  const std::vector<Track>& tracks = tracker.tracks();
+  const Matrix3d P = predicted.covariance();
+  const Pose2 T_base_map = predicted.pose.inverse();
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    if (tracks[t].landmark == kNoLandmark || map.is_wall(tracks[t].landmark)) continue;
+    const Vector2d p = T_base_map * map.point(tracks[t].landmark).position;
+    const double squared = p.squaredNorm();
+    if (squared < 1e-4) continue;
+    const Vector2d aside(-p.y() / squared, p.x() / squared);
+    Eigen::Matrix<double, 2, 3> J;
+    J.leftCols<2>() = -predicted.pose.rotation().transpose();
+    J.col(2) = Vector2d(p.y(), -p.x());
+    const Eigen::RowVector3d by_pose = aside.transpose() * J;
+    const double plan = map.uncertainty_m() * aside.norm();
+    tracker.expect(static_cast<int>(t), std::atan2(p.y(), p.x()), std::sqrt(by_pose.dot(by_pose * P) + plan * plan));
+  }
+}
+
+void Localizer::State::observe_landmark(const Scene& scene, int primitive, LandmarkId landmark, int track) {
+  const Primitive& seen = scene.primitives[static_cast<std::size_t>(primitive)];
+  const bool wall = map.is_wall(landmark);
+  if (wall != (seen.type == PrimitiveType::kWall)) return;
+  Observation o = wall ? observe_wall(seen, map.wall(landmark), current.pose, map.uncertainty_m(), params.observations)
+                       : observe_point(scene, seen, map.point(landmark), wall_in_use, map.uncertainty_m(),
+                                       params.observations);
+  o.landmark = landmark;
+  o.primitive = primitive;
+  o.track = track;
+  observations.push_back(o);
+  if (!wall) return;
+  for (int s = seen.first_segment; s >= 0 && s <= seen.last_segment; ++s) wall_in_use[static_cast<std::size_t>(s)] = true;
+}
+
+/// What the tracks continue; walls first, so that points know which walls are in use.
+void Localizer::State::observe_tracks(const Scene& scene, const std::vector<Match>& matches) {
+  observations.clear();
+  wall_in_use.assign(scene.segments.size(), false);
+  for (const bool walls : {true, false})
+    for (const Match& match : matches) {
+      const LandmarkId landmark = tracker.tracks()[static_cast<std::size_t>(match.track)].landmark;
+      if (landmark != kNoLandmark && map.is_wall(landmark) == walls)
+        observe_landmark(scene, match.primitive, landmark, match.track);
+    }
+}
+
+void Localizer::State::list_unmatched(const Scene& scene) {
+  unmatched.clear();
+  taken.clear();
+  std::vector<bool> used(scene.primitives.size(), false);
+  for (const Observation& o : observations) {
+    used[static_cast<std::size_t>(o.primitive)] = true;
+    if (!map.is_wall(o.landmark)) taken.push_back(o.landmark);
+  }
+  for (std::size_t p = 0; p < used.size(); ++p)
+    if (!used[p]) unmatched.push_back(static_cast<int>(p));
+}
+
+void Localizer::State::solve(const SplitPose& predicted) {
+  const PoseSolution& solution = solver.solve(predicted, observations);
+  current = solution.pose;
+  if (!observations.empty()) calibration = solution.calibration;
+}
+
+/// What continues no track of the map is matched to the map, walls before points, from a pose that every round knows better.
+void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted) {
+  const auto add = [&](const std::vector<MapMatch>& found) {
+    for (const MapMatch& match : found) {
+      observe_landmark(scene, match.primitive, match.landmark, -1);
+      new_matches.push_back(match);
+    }
+    if (!found.empty()) solve(predicted);
+    return !found.empty();
+  };
+  new_matches.clear();
+  for (int round = 0; round < params.matching_rounds; ++round) {
+    list_unmatched(scene);
+    const bool walls = add(matcher.match_walls(scene, unmatched, estimate()));
+    list_unmatched(scene);
+    const bool points = add(matcher.match_points(scene, unmatched, estimate(), taken));
+    if (!walls && !points) break;
+  }
+}
+
+/// A track that had no landmark, and whose primitive has now been matched to the map, gets it.
+void Localizer::State::label_tracks(const std::vector<Match>& matches) {
+  for (MapMatch& found : new_matches)
+    for (const Match& match : matches)
+      if (match.primitive == found.primitive) {
+        tracker.relabel(match.track, found.landmark);
+        for (Observation& o : observations)
+          if (o.primitive == found.primitive) o.track = match.track;
+        found.primitive = -1;
+        break;
+      }
+  std::erase_if(new_matches, [](const MapMatch& match) { return match.primitive < 0; });
+}
+
+void Localizer::State::start_tracks(const Scene& scene) {
+  const std::vector<int>& appeared = tracker.appeared();
+  for (const int primitive : appeared) {
+    const auto found = std::find_if(new_matches.begin(), new_matches.end(),
+                                    [primitive](const MapMatch& match) { return match.primitive == primitive; });
+    if (found == new_matches.end()) {
+      if (params.method == perception::Method::kDefault) tracker.start(scene, primitive, 0.0, kNoLandmark);
+      continue;
+    }
+    // Clerentin et al., sec. 5: the initial matching is given with the mass (.5, 0, .5).
+    const std::optional<int> track = started ? tracker.start(scene, primitive, found->yes, found->landmark)
+                                             : tracker.start_given(scene, primitive, found->landmark);
+    for (Observation& o : observations)
+      if (o.primitive == primitive) o.track = track.value_or(-1);
+  }
+}
+
+/// A wrong match shows as a residual that the pose does not explain. Once may be bad luck; a track that goes on is
+/// somebody else.
+void Localizer::State::drop_contradicting_landmarks(const PoseSolution& solution) {
+  for (std::size_t k = 0; k < solution.outlier.size(); ++k) {
+    const int index = observations[k].track;
+    if (index < 0) continue;
+    const int id = tracker.tracks()[static_cast<std::size_t>(index)].id;
+    if (!solution.outlier[k]) {
+      contradictions.erase(id);
+    } else if (++contradictions[id] > params.contradictions_allowed) {
+      tracker.relabel(index, kNoLandmark);
+      contradictions.erase(id);
+    }
+  }
+}
+
+/// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
+void Localizer::State::update_motion_only(const Scene& scene, const std::vector<Match>& matches,
+                                          const PoseEstimate& motion) {
+  observations.clear();
+  for (const Match& match : matches) {
+    const Track& track = tracker.tracks()[static_cast<std::size_t>(match.track)];
+    const Primitive& now = scene.primitives[static_cast<std::size_t>(match.primitive)];
+    if (track.last_seen_time != latest.time || now.bearing_only || track.last_seen.bearing_only ||
+        (now.type == PrimitiveType::kWall) != (track.last_seen.type == PrimitiveType::kWall))
+      continue;
+    observations.push_back(observe_again(now, track.last_seen, params.observations));
+    observations.back().primitive = match.primitive;
+  }
+  const SplitPose prior{motion.pose, motion.covariance, Matrix3d::Zero()};
+  const PoseSolution& solution = solver.solve(prior, observations);
+  current = moved(current, {solution.pose.pose, solution.pose.covariance()});
+}
+
+Localization Localizer::State::report(const Scene& scene) const {
+  Localization fix;
+  fix.time = scene.time;
+  fix.estimate = estimate();
+  fix.tracked = static_cast<int>(tracker.tracks().size());
+  fix.detected = static_cast<int>(scene.primitives.size());
+  return fix;
+}
+
+Localizer::Localizer(const geometry::FloorPlan& plan, const sensors::Rig& rig,
+                     const std::optional<PoseEstimate>& initial, const LocalizerParams& params)
+    : state_(std::make_unique<State>(plan, rig, initial, params)) {}
+Localizer::~Localizer() = default;
+Localizer::Localizer(Localizer&&) noexcept = default;
+Localizer& Localizer::operator=(Localizer&&) noexcept = default;
+
+void Localizer::with_path(sensors::Acquisition& acquisition) {
+  State& s = *state_;
+  if (acquisition.path.empty() && s.started) {
+    const Pose2 step = s.predicted_motion(std::nullopt, acquisition.time).pose;
+    acquisition.path = sensors::MotionPath({{s.latest.time, {}}, {std::max(acquisition.time, s.latest.time + 1), step}});
+  }
+  s.path = acquisition.path;
+}
+
+Localization Localizer::update(const Scene& scene, const std::optional<PoseEstimate>& motion) {
+  State& s = *state_;
+  // 1. Predict the pose and where the tracks should be seen.
+  const bool moves = s.started;
+  const PoseEstimate step = s.predicted_motion(motion, scene.time);
+  const SplitPose predicted = moves ? moved(s.current, step) : s.current;
+  s.tracker.predict(s.params.method == perception::Method::kDefault && moves ? motion : std::nullopt);
+  if (s.absolute) s.expect_landmarks(predicted);
+
+  // 2. Associate the primitives with the tracks.
+  const std::vector<Match>& matches = s.tracker.associate(scene);
+
+  Localization fix;
+  if (s.absolute) {
+    // 3. The pose from what is matched; 4. the map for what has appeared, and the pose again.
+    s.current = predicted;
+    s.observe_tracks(scene, matches);
+    s.solve(predicted);
+    s.match_map(scene, predicted);
+    const PoseSolution& solution = s.solver.solve(predicted, s.observations);
+    s.label_tracks(matches);
+    // 5. Start tracks, let go of landmarks that contradict the pose.
+    s.start_tracks(scene);
+    s.drop_contradicting_landmarks(solution);
+    s.tracker.update(scene);
+    // 6. Beliefs and status.
+    fix = s.report(scene);
+    LocalizationEvidence evidence;
+    evidence.tracks = s.tracker.tracks();
+    std::vector<bool> explained(scene.primitives.size(), false);
+    for (std::size_t k = 0; k < s.observations.size(); ++k)
+      if (!solution.outlier[k]) explained[static_cast<std::size_t>(s.observations[k].primitive)] = true;
+    for (std::size_t p = 0; p < explained.size(); ++p) {
+      const Primitive& primitive = scene.primitives[p];
+      evidence.matched += explained[p] ? 1 : 0;
+      if (primitive.bearing_only) continue;
+      const double weight = s.params.method == perception::Method::kPaper ? 1.0 : primitive.existence.pignistic();
+      evidence.detected += weight;
+      if (explained[p]) evidence.explained += weight;
+    }
+    const evidence::FusedBinaryMass belief = localization_belief(evidence, s.params.belief);
+    fix.belief = belief.mass;
+    fix.conflict = belief.conflict;
+    fix.matched = evidence.matched;
+    judge(fix, scene.camera_seen, scene.range_finder_seen, s.params.status);
+  } else {
+    if (moves) s.update_motion_only(scene, matches, step);
+    s.new_matches.clear();
+    s.start_tracks(scene);
+    s.tracker.update(scene);
+    fix = s.report(scene);
+    fix.reason = s.map.empty() ? "no floor plan: the pose is relative to the start"
+                               : "no initial pose: the pose is relative to the start";
+  }
+  s.before = s.started ? s.latest : Fix{};
+  s.latest = {scene.time, fix.estimate, fix.belief};
+  s.started = true;
+  return fix;
+}
+
+evidence::Believed<PoseEstimate> Localizer::pose_at(Timestamp time) const {
+  const State& s = *state_;
+  if (!s.started) return {{s.current.pose, s.current.covariance()}, evidence::BinaryMass::vacuous()};
+  const bool between = s.before.time != 0 && time < s.latest.time && time >= s.before.time;
+  const Fix& anchor = between ? s.before : s.latest;
+  PoseEstimate estimate = anchor.estimate;
+  estimate.pose = anchor.estimate.pose * s.path.motion(anchor.time, time);
+  if (!between) return {estimate, anchor.belief};
+  // What the path from the last fix misses of this one is spread over the way.
+  const double share = sensors::seconds_between(s.before.time, time) / sensors::seconds_between(s.before.time, s.latest.time);
+  const Pose2 arrived = s.before.estimate.pose * s.path.motion(s.before.time, s.latest.time);
+  const Pose2 missed = arrived.inverse() * s.latest.estimate.pose;
+  estimate.pose = estimate.pose * geometry::interpolate({}, missed, share);
+  estimate.covariance = (1.0 - share) * s.before.estimate.covariance + share * s.latest.estimate.covariance;
+  const bool earlier_is_weaker = s.before.belief.pignistic() < s.latest.belief.pignistic();
+  return {estimate, earlier_is_weaker ? s.before.belief : s.latest.belief};
+}
+
+const std::vector<Track>& Localizer::tracks() const { return state_->tracker.tracks(); }
+const LandmarkMap& Localizer::map() const { return state_->map; }
+const LocalizerParams& Localizer::params() const { return state_->params; }
+
+}  // namespace credo::localization

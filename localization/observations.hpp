@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <vector>
+
+#include "localization/landmark_map.hpp"
+#include "localization/pose_solver.hpp"
+
+namespace credo::localization {
+
+struct ObservationParams {
+  double min_bearing_sigma_rad = 0.001;  ///< floor of a radial line's sigma: what its fit cannot know
+  double min_wall_sigma_m = 0.002;       ///< floor of a wall's offset: skirting, wallpaper, interference of the beam
+  double min_wall_sigma_rad = 0.002;
+};
+
+/// A primitive that is a wall of the map.
+[[nodiscard]] Observation observe_wall(const perception::Primitive& wall, const WallLandmark& landmark,
+                                       const geometry::Pose2& pose, double plan_uncertainty_m,
+                                       const ObservationParams& params = {});
+
+/// A primitive that is a point of the map. Where the walls that meet in it are used for the pose already
+/// (`wall_in_use`, by segment), only what they do not say is taken: the camera's bearing if there is one, else the
+/// position along them.
+[[nodiscard]] Observation observe_point(const perception::Scene& scene, const perception::Primitive& point,
+                                        const PointLandmark& landmark, const std::vector<bool>& wall_in_use,
+                                        double plan_uncertainty_m, const ObservationParams& params = {});
+
+/// A primitive against the same landmark as it was seen in an earlier scene: an observation for the motion between the
+/// two, whose "map" is the earlier base frame. Precondition: both are walls, or neither is and both have a position.
+[[nodiscard]] Observation observe_again(const perception::Primitive& now, const perception::Primitive& earlier,
+                                        const ObservationParams& params = {});
+
+}  // namespace credo::localization

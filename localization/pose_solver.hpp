@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "geometry/pose.hpp"
+#include "sensors/acquisition.hpp"
+#include "tracking/track.hpp"
+
+namespace credo::localization {
+
+/// What of a landmark was measured, and which residual follows from it.
+enum class ObservationKind {
+  kWall,     ///< a line: (offset across the map's line at the observed centroid, angle modulo pi)
+  kPoint,    ///< a position: (x, y) in the map frame
+  kBearing,  ///< an azimuth from the camera: (angle, unused)
+};
+
+/// One matched feature. The covariances of its residual are kept apart: `noise` is fresh in every acquisition, `plan` is
+/// the map's own error, which comes again whenever the landmark is seen again.
+struct Observation {
+  ObservationKind kind = ObservationKind::kWall;
+  tracking::LandmarkId landmark = tracking::kNoLandmark;
+  int primitive = -1;  ///< index into Scene::primitives
+  int track = -1;      ///< index into Tracker::tracks(), -1 before it has one
+  Eigen::Vector2d map_point = Eigen::Vector2d::Zero();  ///< a point of the map's line, or the map's point
+  double map_angle = 0.0;                               ///< of the map's line [rad]
+  Eigen::Vector2d base_point = Eigen::Vector2d::Zero(); ///< centroid, position, or origin of the bearing; base frame
+  double base_angle = 0.0;                              ///< of the observed line, or the bearing [rad]
+  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();      ///< of (across, angle), of the position in the base frame, or (0, 0) of the bearing
+  Eigen::Matrix2d plan = Eigen::Matrix2d::Zero();       ///< of (across, angle), of the position in the map frame, or of the position for a bearing
+
+  [[nodiscard]] int dimension() const { return kind == ObservationKind::kBearing ? 1 : 2; }
+};
+
+/// A pose whose error has two parts: one that is independent of everything measured later (noise), and one that may be
+/// correlated with it to any degree (the plan's errors, met again and again).
+struct SplitPose {
+  geometry::Pose2 pose;
+  Eigen::Matrix3d independent = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d correlated = Eigen::Matrix3d::Zero();
+
+  [[nodiscard]] Eigen::Matrix3d covariance() const { return independent + correlated; }
+};
+
+struct PoseSolverParams {
+  double robust_scale = 2.5;     ///< Cauchy loss, in standard deviations per degree of freedom
+  int reweightings = 4;          ///< of the robust loss
+  double outlier_probability = 1e-4;  ///< a residual less likely than this is no match
+};
+
+/// The pose and what came of each observation.
+struct PoseSolution {
+  SplitPose pose;
+  /// What the instruments' calibration adds to the covariance: common to all readings, so it never averages out.
+  Eigen::Matrix3d calibration = Eigen::Matrix3d::Zero();
+  std::vector<double> mahalanobis_squared;  ///< of each observation's residual at the solution
+  std::vector<bool> outlier;                ///< by PoseSolverParams::outlier_probability
+  double prior_mahalanobis_squared = 0.0;   ///< of the step from the prior
+
+  [[nodiscard]] geometry::PoseEstimate estimate() const {
+    return {pose.pose, pose.covariance() + calibration};
+  }
+};
+
+/// The residual of an observation at a pose, and its Jacobian by (x, y, theta). The second row of a bearing is 0.
+void evaluate(const Observation& observation, const geometry::Pose2& pose, Eigen::Vector2d& residual,
+              Eigen::Matrix<double, 2, 3>* jacobian);
+
+/// Pose from everything matched: robust least squares on walls, points and bearings with a prior (Ceres' TinySolver), and a
+/// covariance by split covariance intersection (Julier and Uhlmann 2001), which stays honest although the plan's errors
+/// repeat from one acquisition to the next.
+class PoseSolver {
+ public:
+  explicit PoseSolver(const sensors::Rig& rig, const PoseSolverParams& params = {});
+  ~PoseSolver();
+  PoseSolver(PoseSolver&&) noexcept;
+  PoseSolver& operator=(PoseSolver&&) noexcept;
+
+  /// \param prior  its covariance is positive definite
+  /// \returns a reference that stays valid until the next call; the prior itself where there is no observation.
+  const PoseSolution& solve(const SplitPose& prior, const std::vector<Observation>& observations);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace credo::localization

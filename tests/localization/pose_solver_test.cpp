@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "localization/pose_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+namespace credo::localization {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using geometry::Pose2;
+
+Observation wall_at(const Vector2d& point, double angle) {
+  Observation o;
+  o.kind = ObservationKind::kWall;
+  o.map_point = point;
+  o.map_angle = angle;
+  o.noise = Vector2d(1e-4, 1e-4).asDiagonal();
+  return o;
+}
+
+/// What a sensor at `pose` sees of a room of 6 m x 4 m without noise: two walls, a corner, three bearings.
+std::vector<Observation> seen_from(const Pose2& pose) {
+  const Pose2 T_base_map = pose.inverse();
+  std::vector<Observation> seen{wall_at({0, 0}, 0.0), wall_at({6, 0}, 1.5707963267948966)};
+  seen[0].base_point = T_base_map * Vector2d(2, 0);
+  seen[0].base_angle = -pose.theta;
+  seen[1].base_point = T_base_map * Vector2d(6, 1);
+  seen[1].base_angle = 1.5707963267948966 - pose.theta;
+  Observation corner;
+  corner.kind = ObservationKind::kPoint;
+  corner.map_point = {6, 4};
+  corner.base_point = T_base_map * corner.map_point;
+  corner.noise = Vector2d(4e-4, 1e-4).asDiagonal();
+  seen.push_back(corner);
+  for (const Vector2d& mark : {Vector2d(0, 4), Vector2d(3, 0), Vector2d(6, 2)}) {
+    Observation o;
+    o.kind = ObservationKind::kBearing;
+    o.map_point = mark;
+    o.base_point = {0.05, 0.02};
+    const Vector2d way = T_base_map * mark - o.base_point;
+    o.base_angle = std::atan2(way.y(), way.x());
+    o.noise(0, 0) = 4e-6;
+    seen.push_back(o);
+  }
+  return seen;
+}
+
+SplitPose prior_at(const Pose2& pose, double sigma_m, double sigma_rad) {
+  SplitPose prior;
+  prior.pose = pose;
+  prior.independent = Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+  return prior;
+}
+
+TEST(PoseSolver, JacobiansAgreeWithNumericOnes) {
+  const Pose2 pose{2.1, 1.7, 0.6};
+  for (const Observation& o : seen_from({2.0, 1.5, 0.4})) {
+    Vector2d residual;
+    Eigen::Matrix<double, 2, 3> J;
+    evaluate(o, pose, residual, &J);
+    constexpr double h = 1e-6;
+    for (int k = 0; k < 3; ++k) {
+      Vector3d up(pose.x, pose.y, pose.theta), down = up;
+      up(k) += h, down(k) -= h;
+      Vector2d above, below;
+      evaluate(o, {up(0), up(1), up(2)}, above, nullptr);
+      evaluate(o, {down(0), down(1), down(2)}, below, nullptr);
+      const Vector2d numeric = (above - below) / (2.0 * h);
+      EXPECT_NEAR(J(0, k), numeric(0), 1e-7) << "kind " << static_cast<int>(o.kind) << " by " << k;
+      EXPECT_NEAR(J(1, k), numeric(1), 1e-7) << "kind " << static_cast<int>(o.kind) << " by " << k;
+    }
+  }
+}
+
+TEST(PoseSolver, FindsThePoseFromAStartFarAway) {
+  const Pose2 truth{2.0, 1.5, 0.4};
+  PoseSolver solver{sensors::Rig{}};
+  const PoseSolution& solution = solver.solve(prior_at({2.3, 1.2, 0.25}, 1.0, 0.5), seen_from(truth));
+  EXPECT_NEAR(solution.pose.pose.x, truth.x, 1e-3);
+  EXPECT_NEAR(solution.pose.pose.y, truth.y, 1e-3);
+  EXPECT_NEAR(solution.pose.pose.theta, truth.theta, 1e-3);
+  EXPECT_EQ(std::count(solution.outlier.begin(), solution.outlier.end(), true), 0);
+}
+
+TEST(PoseSolver, OneWrongMatchNeitherPullsThePoseNorPassesAsAMatch) {
+  const Pose2 truth{2.0, 1.5, 0.4};
+  std::vector<Observation> seen = seen_from(truth);
+  seen[4].map_point += Vector2d(0.5, 0.0);
+  PoseSolver solver{sensors::Rig{}};
+  const PoseSolution& solution = solver.solve(prior_at({2.05, 1.45, 0.4}, 0.05, 0.05), seen);
+  EXPECT_LT(std::hypot(solution.pose.pose.x - truth.x, solution.pose.pose.y - truth.y), 0.01);
+  EXPECT_TRUE(solution.outlier[4]);
+  EXPECT_EQ(std::count(solution.outlier.begin(), solution.outlier.end(), true), 1);
+}
+
+TEST(PoseSolver, WithoutObservationsThePriorIsTheAnswer) {
+  PoseSolver solver{sensors::Rig{}};
+  const SplitPose prior = prior_at({1, 2, 0.3}, 0.1, 0.05);
+  const PoseSolution& solution = solver.solve(prior, {});
+  EXPECT_EQ(solution.pose.pose, prior.pose);
+  EXPECT_EQ(solution.pose.covariance(), prior.covariance());
+}
+
+TEST(PoseSolver, CovarianceIsHonestForNoiseAndPlanErrors) {
+  // NEES over independent draws of noise, plan errors and prior; its mean is 3 for an exact covariance. Split covariance
+  // intersection must not be optimistic, and not pessimistic beyond reason.
+  const Pose2 truth{2.0, 1.5, 0.4};
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  PoseSolver solver{sensors::Rig{}};
+  double sum = 0.0;
+  constexpr int kDraws = 400;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::vector<Observation> seen = seen_from(truth);
+    for (Observation& o : seen) {
+      const double u = 0.01;
+      if (o.kind == ObservationKind::kWall) {
+        o.plan = Vector2d(u * u, 1e-6).asDiagonal();
+        const Vector2d across(-std::sin(o.map_angle), std::cos(o.map_angle));
+        o.map_point += u * normal(random) * across;
+        const Vector2d across_in_base(-std::sin(o.base_angle), std::cos(o.base_angle));
+        o.base_point += 0.01 * normal(random) * across_in_base;
+        o.base_angle += 0.01 * normal(random) + 0.001 * normal(random);
+      } else {
+        o.plan = u * u * Eigen::Matrix2d::Identity();
+        o.map_point += u * Vector2d(normal(random), normal(random));
+        if (o.kind == ObservationKind::kPoint) o.base_point += Vector2d(0.02 * normal(random), 0.01 * normal(random));
+        else o.base_angle += 0.002 * normal(random);
+      }
+    }
+    const SplitPose prior = prior_at(
+        {truth.x + 0.03 * normal(random), truth.y + 0.03 * normal(random), truth.theta + 0.02 * normal(random)}, 0.03, 0.02);
+    const PoseSolution& solution = solver.solve(prior, seen);
+    const Vector3d error(solution.pose.pose.x - truth.x, solution.pose.pose.y - truth.y,
+                         geometry::angle_difference(solution.pose.pose.theta, truth.theta));
+    sum += error.dot(solution.pose.covariance().inverse() * error);
+  }
+  const double mean_nees = sum / kDraws;
+  EXPECT_GT(mean_nees, 1.5);
+  EXPECT_LT(mean_nees, 3.7);
+}
+
+TEST(PoseSolver, TheSamePlanErrorSeenAgainDoesNotAverageOut) {
+  // A robot at rest sees the same walls a hundred times: its noise averages out, the plan's error does not.
+  const Pose2 truth{2.0, 1.5, 0.4};
+  std::vector<Observation> seen = seen_from(truth);
+  for (Observation& o : seen)
+    o.plan = o.kind == ObservationKind::kWall ? Eigen::Matrix2d(Vector2d(1e-4, 1e-6).asDiagonal())
+                                              : Eigen::Matrix2d(1e-4 * Eigen::Matrix2d::Identity());
+  PoseSolver solver{sensors::Rig{}};
+  SplitPose pose = solver.solve(prior_at(truth, 0.05, 0.05), seen).pose;
+  const double once = pose.covariance()(0, 0);
+  for (int i = 0; i < 100; ++i) pose = solver.solve(pose, seen).pose;
+  EXPECT_LT(pose.independent(0, 0), 0.2 * once);
+  EXPECT_GT(pose.covariance()(0, 0), 0.3e-4) << "the plan's share stays";
+  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Matrix3d>(pose.correlated).eigenvalues()(0), -1e-15);
+}
+
+TEST(PoseSolver, MountingErrorsAreCommonToAllReadings) {
+  sensors::Rig rig;
+  rig.camera.emplace();
+  rig.range_finders.emplace_back();
+  for (auto* accuracy : {&rig.camera->accuracy, &rig.range_finders[0].accuracy}) accuracy->theta_rad = 0.003;
+  PoseSolver solver{rig};
+  const PoseSolution& solution = solver.solve(prior_at({2.0, 1.5, 0.4}, 1.0, 0.5), seen_from({2.0, 1.5, 0.4}));
+  EXPECT_GT(std::sqrt(solution.calibration(2, 2)), 0.0015);
+  EXPECT_LT(std::sqrt(solution.calibration(2, 2)), 0.0031);
+}
+
+}  // namespace
+}  // namespace credo::localization
