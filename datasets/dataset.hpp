@@ -87,6 +87,7 @@ struct Dataset {
   // What a person should know about the reading of it.
   std::vector<SensorLog> log;
   std::vector<std::string> remarks;  ///< one line each, e.g. "camera1 is not used: ..."
+  std::string camera_name;                      ///< folder of the camera, e.g. "camera0"; empty without a camera
   std::vector<std::string> range_finder_names;  ///< folder of each range finder, e.g. "range0"
   std::vector<std::string> sonar_ring_names;
 

@@ -7,6 +7,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/pose.hpp"
 #include "sensors/calibration_accuracy.hpp"
@@ -20,6 +21,25 @@ struct ConicMirror {
   double focal_px = 0.0;
 
   friend bool operator==(const ConicMirror&, const ConicMirror&) = default;
+};
+
+/// The unified central model with a radial-tangential lens (Mei and Rives, ICRA 2007). [px]
+struct MeiProjection {
+  double xi = 0.0;
+  Eigen::Vector2d focal_px = Eigen::Vector2d::Zero();      ///< fu, fv
+  Eigen::Vector2d principal_px = Eigen::Vector2d::Zero();  ///< pu, pv
+  Eigen::Vector4d distortion = Eigen::Vector4d::Zero();    ///< k1, k2, p1, p2
+
+  friend bool operator==(const MeiProjection&, const MeiProjection&) = default;
+};
+
+/// The polynomial model (Scaramuzza et al., ICVS 2006).
+struct ScaramuzzaProjection {
+  std::vector<double> polynomial;          ///< by growing power, pixel to ray
+  std::vector<double> inverse_polynomial;  ///< by growing power, ray to pixel; may be empty
+  Eigen::Vector3d affine = {1.0, 0.0, 0.0};  ///< c, d, e
+
+  friend bool operator==(const ScaramuzzaProjection&, const ScaramuzzaProjection&) = default;
 };
 
 /// An omnidirectional camera: the sensor.yaml of camera0. Vertical lines of the world are radial lines about `center`.
@@ -40,6 +60,8 @@ struct OmniCamera {
   double azimuth_zero_rad = 0.0;
   int azimuth_sign = -1;
   std::optional<ConicMirror> mirror;
+  std::optional<MeiProjection> mei;                ///< where model is kMei
+  std::optional<ScaramuzzaProjection> scaramuzza;  ///< where model is kScaramuzza
   double exposure_s = 0.0;
   CalibrationAccuracy accuracy;
 

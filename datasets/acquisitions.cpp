@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "datasets/acquisitions.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "datasets/image_file.hpp"
+
+namespace credo::datasets {
+namespace {
+
+using sensors::Timestamp;
+constexpr Timestamp kEarliest = std::numeric_limits<Timestamp>::min();
+constexpr Timestamp kLatest = std::numeric_limits<Timestamp>::max();
+
+template <typename Row>
+std::vector<Timestamp> times_of(const std::vector<Row>& rows) {
+  std::vector<Timestamp> times;
+  times.reserve(rows.size());
+  for (const Row& row : rows) times.push_back(row.time);
+  return times;
+}
+
+/// The times of the sensor that defines the acquisitions.
+std::vector<Timestamp> acquisition_times(const Dataset& dataset) {
+  const std::string& sensor = dataset.header.acquisition_sensor;
+  if (sensor == dataset.camera_name) return times_of(dataset.images);
+  for (std::size_t i = 0; i < dataset.range_finder_names.size(); ++i)
+    if (dataset.range_finder_names[i] == sensor) return times_of(dataset.scans[i]);
+  for (std::size_t i = 0; i < dataset.sonar_ring_names.size(); ++i)
+    if (dataset.sonar_ring_names[i] == sensor) return times_of(dataset.sonar[i]);
+  return {};
+}
+
+/// The row nearest to `time`: of equally near ones the earlier, of rows with one time the last. Null where none is near
+/// enough.
+template <typename Row>
+const Row* nearest_row(const std::vector<Row>& rows, Timestamp time, Timestamp within) {
+  const auto after =
+      std::upper_bound(rows.begin(), rows.end(), time, [](Timestamp t, const Row& row) { return t < row.time; });
+  const Row* nearest = nullptr;
+  if (after != rows.begin()) nearest = &*(after - 1);
+  if (after != rows.end() && (nearest == nullptr || after->time - time < time - nearest->time)) nearest = &*after;
+  return nearest != nullptr && std::abs(nearest->time - time) <= within ? nearest : nullptr;
+}
+
+/// The rows with previous < time <= last.
+template <typename Row>
+std::span<const Row> rows_within(const std::vector<Row>& rows, Timestamp previous, Timestamp last) {
+  const auto later = [](Timestamp t, const Row& row) { return t < row.time; };
+  const auto begin = previous == kEarliest ? rows.begin() : std::upper_bound(rows.begin(), rows.end(), previous, later);
+  return {begin, std::upper_bound(begin, rows.end(), last, later)};
+}
+
+/// The same of all sensors of a kind, by time; of one time by sensor.
+template <typename Row>
+std::vector<Row> all_rows_within(const std::vector<std::vector<Row>>& sensors, Timestamp previous, Timestamp last) {
+  std::vector<Row> all;
+  for (const std::vector<Row>& rows : sensors) {
+    const std::span<const Row> within = rows_within(rows, previous, last);
+    all.insert(all.end(), within.begin(), within.end());
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Row& a, const Row& b) { return a.time < b.time; });
+  return all;
+}
+
+bool all_nan(const std::vector<float>& ranges) {
+  return std::all_of(ranges.begin(), ranges.end(), [](float range) { return std::isnan(range); });
+}
+
+/// A stretch of time that grows over what is put into it.
+struct Stretch {
+  Timestamp first = kLatest;
+  Timestamp last = kEarliest;
+
+  void cover(Timestamp time, double margin_s = 0.0) {
+    const Timestamp margin = sensors::from_seconds(std::abs(margin_s));
+    first = std::min(first, time - margin);
+    last = std::max(last, time + margin);
+  }
+};
+
+/// From before the first to after the last reading of an acquisition, beams and firings included.
+Stretch stretch_of(const sensors::Acquisition& acquisition, const sensors::Rig& rig) {
+  Stretch stretch;
+  stretch.cover(acquisition.time);
+  if (acquisition.image && rig.camera) stretch.cover(acquisition.image->time, 0.5 * rig.camera->exposure_s);
+  const auto cover_scan = [&](const sensors::RangeScan& scan) {
+    stretch.cover(scan.time, 0.5 * rig.range_finders[static_cast<std::size_t>(scan.sensor)].scan_time_s);
+  };
+  if (acquisition.scan) cover_scan(*acquisition.scan);
+  for (const sensors::RangeScan& scan : acquisition.scans) cover_scan(scan);
+  for (const sensors::SonarSweep& sweep : acquisition.sonar) {
+    stretch.cover(sweep.time);
+    for (const double firing : rig.sonar_rings[static_cast<std::size_t>(sweep.sensor)].firing_times_s)
+      stretch.cover(sweep.time + sensors::from_seconds(firing));
+  }
+  return stretch;
+}
+
+/// The odometry rows from the last one not after the stretch's start to the first one not before its end.
+sensors::MotionPath path_over(const std::vector<sensors::OdometryReading>& rows, const Stretch& stretch) {
+  const auto earlier = [](const sensors::OdometryReading& row, Timestamp t) { return row.time < t; };
+  const auto later = [](Timestamp t, const sensors::OdometryReading& row) { return t < row.time; };
+  auto begin = std::upper_bound(rows.begin(), rows.end(), stretch.first, later);
+  if (begin != rows.begin()) --begin;
+  auto end = std::lower_bound(begin, rows.end(), stretch.last, earlier);
+  if (end != rows.end()) ++end;
+  // Two rows at least where there are two: a path continues beyond its end with the velocity there.
+  if (end - begin < 2 && begin != rows.begin()) --begin;
+  if (end - begin < 2 && end != rows.end()) ++end;
+  return sensors::MotionPath(std::vector<sensors::OdometryReading>(begin, end));
+}
+
+/// Whether odometry says where the robot was at a time, which it does for a moment beyond its ends.
+bool knows(const std::vector<sensors::OdometryReading>& rows, Timestamp time) {
+  return !rows.empty() && time >= rows.front().time - sensors::MotionPath::kLongestExtrapolation &&
+         time <= rows.back().time + sensors::MotionPath::kLongestExtrapolation;
+}
+
+/// Fills path and motion. Where odometry has not begun or has died, both stay empty.
+void add_motion(const Dataset& dataset, Timestamp previous, sensors::Acquisition& acquisition) {
+  const bool is_first = previous == kEarliest;
+  if (!dataset.header.rig.odometry || !knows(dataset.odometry, acquisition.time) ||
+      (!is_first && !knows(dataset.odometry, previous)))
+    return;
+  Stretch stretch = stretch_of(acquisition, dataset.header.rig);
+  if (!is_first) stretch.cover(previous);
+  acquisition.path = path_over(dataset.odometry, stretch);
+  if (!is_first) acquisition.motion = dataset.header.rig.odometry->along(acquisition.path, previous, acquisition.time);
+}
+
+}  // namespace
+
+Acquisitions::Acquisitions(const Dataset& dataset, const AcquisitionParams& params)
+    : dataset_(&dataset), params_(params), times_(acquisition_times(dataset)) {
+  for (std::size_t row = 0; row < times_.size(); ++row)
+    if (row + 1 == times_.size() || times_[row + 1] != times_[row]) rows_.push_back(row);
+  times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
+}
+
+sensors::Acquisition Acquisitions::rows_between(std::size_t index) const {
+  const Timestamp previous = index == 0 ? kEarliest : times_[index - 1];
+  const Timestamp last = index == size() ? kLatest : times_[index];
+  sensors::Acquisition acquisition;
+  acquisition.scans = all_rows_within(dataset_->scans, previous, last);
+  acquisition.sonar = all_rows_within(dataset_->sonar, previous, last);
+  const auto odometry = rows_within(dataset_->odometry, previous, last);
+  acquisition.odometry.assign(odometry.begin(), odometry.end());
+  acquisition.time = last;
+  return acquisition;
+}
+
+sensors::Acquisition Acquisitions::read(std::size_t index) const {
+  assert(index < size());
+  sensors::Acquisition acquisition = rows_between(index);
+  const Timestamp within = sensors::from_seconds(params_.nearest_within_s);
+  const bool by_camera = dataset_->header.acquisition_sensor == dataset_->camera_name;
+  const ImageFile* image = by_camera ? &dataset_->images[rows_[index]]
+                                     : nearest_row(dataset_->images, acquisition.time, within);
+  if (image != nullptr && !image->file.empty()) {
+    const sensors::OmniCamera& camera = *dataset_->header.rig.camera;
+    acquisition.image =
+        sensors::OmniImage{image->time, read_grey_image(image->file, camera.width_px, camera.height_px)};
+  }
+  if (!dataset_->scans.empty()) {
+    const sensors::RangeScan* scan = nearest_row(dataset_->scans.front(), acquisition.time, within);
+    if (scan != nullptr && !all_nan(scan->ranges_m)) acquisition.scan = *scan;
+  }
+  add_motion(*dataset_, index == 0 ? kEarliest : times_[index - 1], acquisition);
+  return acquisition;
+}
+
+sensors::Acquisition Acquisitions::trailing() const {
+  sensors::Acquisition acquisition = rows_between(size());
+  acquisition.time = times_.empty() ? 0 : times_.back();
+  for (const auto& scan : acquisition.scans) acquisition.time = std::max(acquisition.time, scan.time);
+  for (const auto& sweep : acquisition.sonar) acquisition.time = std::max(acquisition.time, sweep.time);
+  for (const auto& row : acquisition.odometry) acquisition.time = std::max(acquisition.time, row.time);
+  add_motion(*dataset_, times_.empty() ? kEarliest : times_.back(), acquisition);
+  return acquisition;
+}
+
+}  // namespace credo::datasets

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "datasets/text_file.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include "datasets/format_error.hpp"
+
+namespace credo::datasets {
+
+std::string read_binary_file(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw FormatError(file, 0, "there is no such file");
+  if (std::filesystem::is_directory(status)) throw FormatError(file, 0, "is a folder; expected a file");
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
+  if (size < 0) throw FormatError(file, 0, "cannot be read; check its permissions");
+  std::string content(static_cast<std::size_t>(size), '\0');
+  in.seekg(0);
+  in.read(content.data(), static_cast<std::streamsize>(size));
+  if (in.gcount() != size) throw FormatError(file, 0, "could not be read to its end");
+  return content;
+}
+
+std::string read_text_file(const std::filesystem::path& file) {
+  std::string content = read_binary_file(file);
+  if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
+  if (const auto zero = content.find('\0'); zero != std::string::npos) {
+    const auto line = 1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(zero), '\n');
+    throw FormatError(file, static_cast<int>(line), "holds a zero byte: this is no text file");
+  }
+  return content;
+}
+
+void write_file_whole(const std::filesystem::path& file, std::string_view content) {
+  std::filesystem::path temporary = file;
+  temporary += ".partial";
+  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(temporary, file, error);
+  if (!out || error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw std::runtime_error(file.string() + ": cannot be written; check that its folder exists, may be written to and " +
+                             "has space left");
+  }
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  std::string quote(text.substr(0, kLongest));
+  std::replace_if(quote.begin(), quote.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }, '?');
+  return "'" + quote + (text.size() > kLongest ? "..." : "") + "'";
+}
+
+}  // namespace credo::datasets
