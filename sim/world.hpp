@@ -121,7 +121,7 @@ struct World {
   double ceiling_m = 2.6;
   double skirting_m = 0.1;
   double light_rad = 0.4;  ///< direction in the plane from which the walls are lit most
-  double exposure_gain = 190.0;  ///< grey levels of white paper in good light
+  double exposure_gain = 230.0;  ///< grey levels of white paper in good light
   std::vector<Material> materials;
   std::vector<Panel> panels;
   std::vector<Eigen::Vector2d> marks;  ///< vertical lines without relief that the floor plan shows (door frames)
