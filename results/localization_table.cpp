@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "results/localization_table.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+namespace credo::results {
+namespace {
+
+using localization::Status;
+
+constexpr std::size_t kColumns = 23;  // the reason, the last one, included
+constexpr std::array kStatuses{Status::kInitializing, Status::kLocalized, Status::kUncertain, Status::kAmbiguous,
+                               Status::kLost};
+
+/// A field in quotes where it must be (RFC 4180).
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += '"';
+    result += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return result + '"';
+}
+
+std::vector<std::string> fields_of(std::string_view line) {
+  std::vector<std::string> fields(1);
+  bool inside = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && inside && i + 1 < line.size() && line[i + 1] == '"') {
+      fields.back() += line[++i];
+    } else if (c == '"') {
+      inside = !inside;
+    } else if (c == ',' && !inside) {
+      fields.emplace_back();
+    } else if (c != '\r') {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+class RowReader {
+ public:
+  RowReader(const std::filesystem::path& file, int line, std::string_view text)
+      : file_(file), line_(line), fields_(fields_of(text)) {
+    if (fields_.size() < kColumns) {
+      fail("expected " + std::to_string(kColumns) + " columns, found " + std::to_string(fields_.size()));
+    }
+  }
+
+  template <typename Number>
+  Number number() {
+    const std::string& field = fields_[next_++];
+    Number value{};
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc{} || end != field.data() + field.size()) {
+      fail("expected a number in column " + std::to_string(next_) + ", found '" + field + "'");
+    }
+    return value;
+  }
+  double real() { return number<double>(); }
+  std::string text() { return fields_[next_++]; }
+  Status status() {
+    const std::string word = text();
+    for (const Status status : kStatuses) {
+      if (word == localization::to_string(status)) return status;
+    }
+    fail("unknown status '" + word + "'; known are initializing, localized, uncertain, ambiguous and lost");
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error(file_.string() + ":" + std::to_string(line_) + ": " + what);
+  }
+
+  const std::filesystem::path& file_;
+  int line_;
+  std::vector<std::string> fields_;
+  std::size_t next_ = 0;
+};
+
+LocalizationRow read_row(RowReader read) {
+  LocalizationRow row;
+  localization::Localization& l = row.localization;
+  l.time = read.number<sensors::Timestamp>();
+  l.estimate.pose = {read.real(), 0.0, 0.0};
+  l.estimate.pose.y = read.real();
+  l.estimate.pose.theta = read.real();
+  for (const auto& [i, j] : {std::pair{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}) {
+    l.estimate.covariance(i, j) = l.estimate.covariance(j, i) = read.real();
+  }
+  l.belief.yes = read.real();
+  l.belief.no = read.real();
+  l.belief.unknown = read.real();
+  l.conflict = read.real();
+  l.status = read.status();
+  l.detected = read.number<int>();
+  l.matched = read.number<int>();
+  l.tracked = read.number<int>();
+  row.protection.position_low_m = read.real();
+  row.protection.position_high_m = read.real();
+  row.protection.heading_low_rad = read.real();
+  row.protection.heading_high_rad = read.real();
+  l.reason = read.text();
+  return row;
+}
+
+}  // namespace
+
+std::string to_line(const LocalizationRow& row) {
+  const localization::Localization& l = row.localization;
+  const geometry::Pose2& pose = l.estimate.pose;
+  const Eigen::Matrix3d& c = l.estimate.covariance;
+  const ProtectionLevels& p = row.protection;
+  return fmt::format(
+      "{},{:.6f},{:.6f},{:.9f},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{},{},"
+      "{:.6f},{:.6f},{:.9f},{:.9f},{}\n",
+      l.time, pose.x, pose.y, pose.theta, c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), l.belief.yes, l.belief.no,
+      l.belief.unknown, l.conflict, localization::to_string(l.status), l.detected, l.matched, l.tracked, p.position_low_m,
+      p.position_high_m, p.heading_low_rad, p.heading_high_rad, quoted(l.reason));
+}
+
+std::vector<LocalizationRow> read_localization(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error(file.string() + ": cannot be opened: expected the localization.csv of a run");
+  std::vector<LocalizationRow> rows;
+  std::string text;
+  for (int line = 1; std::getline(in, text); ++line) {
+    if (line == 1) {
+      const std::string known(kLocalizationHeader.substr(0, kLocalizationHeader.size() - 1));
+      if (text.compare(0, known.size(), known) != 0) {
+        throw std::runtime_error(file.string() + ":1: this is not the header of a localization.csv: expected '" +
+                                 known + "'");
+      }
+      continue;
+    }
+    if (text.empty() || text[0] == '#') continue;
+    rows.push_back(read_row(RowReader(file, line, text)));
+  }
+  return rows;
+}
+
+}  // namespace credo::results

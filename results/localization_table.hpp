@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "localization/localization.hpp"
+
+namespace credo::results {
+
+/// How far off the pose can be at the integrity risk that was asked for; nan: no integrity monitor has looked.
+struct ProtectionLevels {
+  double position_low_m = std::numeric_limits<double>::quiet_NaN();
+  double position_high_m = std::numeric_limits<double>::quiet_NaN();
+  double heading_low_rad = std::numeric_limits<double>::quiet_NaN();
+  double heading_high_rad = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// One row of localization.csv. `localization.hypotheses` is empty: they have a table of their own.
+struct LocalizationRow {
+  localization::Localization localization;
+  ProtectionLevels protection = {};
+};
+
+/// The first line of localization.csv, with the line's end.
+inline constexpr std::string_view kLocalizationHeader =
+    "#timestamp [ns],x [m],y [m],theta [rad],var_x,cov_xy,cov_xtheta,var_y,cov_ytheta,var_theta,"
+    "belief_yes,belief_no,belief_unknown,conflict,status,detected,matched,tracked,"
+    "pl_position_low [m],pl_position_high [m],pl_heading_low [rad],pl_heading_high [rad],reason\n";
+/// A line, with the line's end.
+[[nodiscard]] std::string to_line(const LocalizationRow& row);
+
+/// Reads a localization.csv. Columns appended after those known here are ignored.
+/// \throws std::runtime_error with file and line: a missing file, another header, a bad value, an unknown status
+[[nodiscard]] std::vector<LocalizationRow> read_localization(const std::filesystem::path& file);
+
+}  // namespace credo::results

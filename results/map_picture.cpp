@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "grids/readout.hpp"
+#include "results/ground_view.hpp"
+#include "results/pictures.hpp"
+
+namespace credo::results {
+namespace {
+
+using grids::CellState;
+using Point = Canvas::Point;
+constexpr Color kUnknownCell{200, 203, 208}, kEmptyCell{255, 255, 255}, kOccupiedCell{28, 30, 36}, kContestedCell{214, 60, 120};
+
+Color color_of(CellState state) {
+  switch (state) {
+    case CellState::kUnknown: return kUnknownCell;
+    case CellState::kEmpty: return kEmptyCell;
+    case CellState::kOccupied: return kOccupiedCell;
+    case CellState::kContested: return kContestedCell;
+  }
+  return kUnknownCell;
+}
+
+/// Lowest row first becomes highest row first.
+template <typename Values, typename ToColor>
+cv::Mat colored(const Values& values, const grids::CellBox& box, const ToColor& to_color) {
+  cv::Mat picture(box.height, box.width, CV_8UC3);
+  for (int row = 0; row < box.height; ++row) {
+    auto* pixels = picture.ptr<cv::Vec3b>(box.height - 1 - row);
+    for (int column = 0; column < box.width; ++column) {
+      const Color c = to_color(values[static_cast<std::size_t>(row) * static_cast<std::size_t>(box.width) +
+                                      static_cast<std::size_t>(column)]);
+      pixels[column] = {static_cast<uchar>(c.blue), static_cast<uchar>(c.green), static_cast<uchar>(c.red)};
+    }
+  }
+  return picture;
+}
+
+Eigen::Vector2d corner_of(const grids::EvidentialGrid& grid, int x, int y) {
+  const grids::Georeference& g = grid.georeference();
+  return {g.origin_x_m + x * g.resolution_m, g.origin_y_m + y * g.resolution_m};
+}
+
+struct MapView {
+  grids::CellBox box;
+  Eigen::Vector2d low, high;
+
+  explicit MapView(const grids::EvidentialGrid& grid) : box(grid.bounding_box()) {
+    if (box.empty()) box = {.min = {0, 0}, .width = 1, .height = 1};
+    low = corner_of(grid, box.min.x, box.min.y);
+    high = corner_of(grid, box.min.x + box.width, box.min.y + box.height);
+  }
+};
+
+void draw_layer(Canvas& canvas, const grids::EvidentialGrid& grid, const MapView& map, grids::Layer which,
+                const char* title, Color full, Point corner, Point opposite) {
+  canvas.text({corner.x(), corner.y() + 14.0}, title, colors::kInk, 9.0, Anchor::kLeft, 1.2);
+  const double bar = 90.0, bar_left = opposite.x() - bar - 16.0;
+  for (int i = 0; i < 30; ++i) {
+    canvas.box({bar_left + bar * i / 30.0, corner.y() + 6.0}, {bar_left + bar * (i + 1) / 30.0, corner.y() + 14.0},
+               mixed(colors::kPaper, full, (i + 0.5) / 30.0));
+  }
+  canvas.frame({bar_left, corner.y() + 6.0}, {bar_left + bar, corner.y() + 14.0}, colors::kMuted, 0.7);
+  canvas.text({bar_left - 5.0, corner.y() + 14.0}, "0", colors::kInk, 7.5, Anchor::kRight);
+  canvas.text({bar_left + bar + 5.0, corner.y() + 14.0}, "1", colors::kInk, 7.5);
+  const GroundView view(map.low, map.high, corner + Point(0.0, 22.0), opposite);
+  const Point top_left = view.at({map.low.x(), map.high.y()}), bottom_right = view.at({map.high.x(), map.low.y()});
+  const std::vector<float> values = grids::layer(grid, map.box, which);
+  canvas.image(colored(values, map.box, [&](float v) { return mixed(colors::kPaper, full, v); }), top_left, bottom_right);
+  canvas.frame(top_left, bottom_right, colors::kFaint, 0.8);
+}
+
+}  // namespace
+
+cv::Mat map_picture(const grids::EvidentialGrid& grid, std::span<const geometry::Pose2> way) {
+  const MapView map(grid);
+  const double aspect = (map.high.y() - map.low.y()) / std::max(1e-9, map.high.x() - map.low.x());
+  const double width = 720.0, height = std::clamp(width * aspect, 420.0, 900.0), side = 330.0;
+  Canvas canvas(static_cast<int>(width + side * 1.0 + 60.0), static_cast<int>(height + 70.0));
+  const Point corner{16.0, 34.0}, opposite{16.0 + width, 34.0 + height};
+  const GroundView view(map.low, map.high, corner, opposite);
+  const Point top_left = view.at({map.low.x(), map.high.y()}), bottom_right = view.at({map.high.x(), map.low.y()});
+  canvas.text({16.0, 22.0}, "Evidential map", colors::kInk, 11.0, Anchor::kLeft, 1.25);
+  canvas.image(colored(grids::decisions(grid, map.box), map.box, [](CellState s) { return color_of(s); }), top_left, bottom_right);
+  std::vector<Point> trail;
+  for (const geometry::Pose2& pose : way) trail.push_back(view.at(pose.translation()));
+  canvas.polyline(trail, colors::kBlue, 1.4);
+  canvas.frame(top_left, bottom_right, colors::kMuted, 0.8);
+  view.scale_bar(canvas);
+  legend(canvas, {16.0, 34.0 + height + 22.0},
+         std::vector<LegendEntry>{{kOccupiedCell, "occupied"}, {{236, 238, 241}, "empty (white)"}, {kUnknownCell, "unknown"},
+                                  {kContestedCell, "contested"}, {colors::kBlue, "way of the robot"}}, 8.5);
+  const double x = 16.0 + width + 22.0, step = (height + 20.0) / 4.0;
+  const std::array<std::tuple<grids::Layer, const char*, Color>, 4> layers{
+      std::tuple{grids::Layer::kEmpty, "m(empty)", colors::kGreen}, {grids::Layer::kOccupied, "m(occupied)", kOccupiedCell},
+      {grids::Layer::kContested, "contested", kContestedCell}, {grids::Layer::kUnknown, "m(unknown)", colors::kMuted}};
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const auto& [which, title, color] = layers[i];
+    const double y = 16.0 + step * static_cast<double>(i);
+    draw_layer(canvas, grid, map, which, title, color, {x, y}, {x + side, y + step - 10.0});
+  }
+  return canvas.finish();
+}
+
+void write_png(const std::filesystem::path& file, const cv::Mat& picture) {
+  bool written = false;
+  try {
+    written = cv::imwrite(file.string(), picture, {cv::IMWRITE_PNG_COMPRESSION, 4});
+  } catch (const cv::Exception&) {
+    written = false;
+  }
+  if (!written) throw std::runtime_error(file.string() + ": the picture cannot be written");
+}
+
+}  // namespace credo::results

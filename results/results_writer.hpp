@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "grids/evidential_grid.hpp"
+#include "grids/readout.hpp"
+#include "localization/localization.hpp"
+#include "perception/scene.hpp"
+#include "results/belief_tiff.hpp"
+#include "results/localization_table.hpp"
+#include "tracking/track.hpp"
+
+namespace credo::results {
+
+/// Writes what a run leaves behind (docs/dataset-format.md, "Results") into a folder that appears whole or not at all.
+class ResultsWriter {
+ public:
+  /// \throws std::runtime_error as StagedFolder
+  ResultsWriter(const std::filesystem::path& target, bool replace);
+  ~ResultsWriter();
+  ResultsWriter(ResultsWriter&&) noexcept;
+  ResultsWriter& operator=(ResultsWriter&&) noexcept;
+
+  /// One acquisition: a row of trajectory.tum and of localization.csv, and the rows of the other tables.
+  void add(const perception::Scene& scene, const localization::Localization& localization,
+           std::span<const tracking::Track> tracks, const ProtectionLevels& protection = {});
+  /// map.yaml, map.pgm and map_belief.tiff.
+  void add_map(const grids::EvidentialGrid& grid, const grids::DecisionParams& decision = {},
+               BeliefChannels channels = BeliefChannels::kNormalized);
+  void add_config(const std::string& yaml);
+
+  /// Where further files (pictures) may be put before finish().
+  [[nodiscard]] const std::filesystem::path& working_folder() const;
+
+  /// Writes the tables and gives the folder its place. Nothing may be added afterwards.
+  /// \throws std::runtime_error if a file could not be written whole
+  void finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace credo::results
