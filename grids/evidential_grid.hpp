@@ -20,15 +20,16 @@ struct TileIndex {
   friend auto operator<=>(const TileIndex&, const TileIndex&) = default;
 };
 
-/// A square of cells, one array per channel, row after row from the lowest; all zero is vacuous.
+/// A square of cells, one array per channel of evidence::FixedLogCommonality, row after row from the lowest; all zero is
+/// vacuous.
 struct Tile {
   static constexpr int kShift = 6;
   static constexpr int kSide = 1 << kShift;  // cells
   static constexpr int kCells = kSide * kSide;
 
-  alignas(64) std::array<std::int32_t, kCells> empty{};     ///< log commonality of "empty", fixed point
-  alignas(64) std::array<std::int32_t, kCells> occupied{};  ///< of "occupied"
-  alignas(64) std::array<std::int32_t, kCells> unknown{};   ///< of the whole frame
+  alignas(64) std::array<std::int32_t, kCells> empty{};     ///< ln q(empty)
+  alignas(64) std::array<std::int32_t, kCells> occupied{};  ///< ln q(occupied)
+  alignas(64) std::array<std::int32_t, kCells> unknown{};   ///< ln q(empty or occupied)
 
   [[nodiscard]] bool is_vacuous() const;
   friend bool operator==(const Tile&, const Tile&) = default;
@@ -42,7 +43,8 @@ struct Tile {
 
 /// An evidential grid map: every cell is a product of commonalities, kept as a fixed-point logarithm. An update is three
 /// integer additions, so is a merge, and the sum is the same to the last bit whatever the order, the thread or the robot.
-/// The grid has no edge: tiles appear where there is evidence, and an absent tile is vacuous.
+/// The grid has no edge: tiles appear where there is evidence, and an absent tile is vacuous. A cell that has taken in so
+/// much that it reaches the floor of its range (evidence::FixedLogCommonality) stays there.
 class EvidentialGrid {
  public:
   EvidentialGrid() : EvidentialGrid(Georeference{}) {}
@@ -52,9 +54,9 @@ class EvidentialGrid {
   [[nodiscard]] const Georeference& georeference() const { return georeference_; }
 
   /// What is known of a cell; vacuous where nothing was added.
-  [[nodiscard]] evidence::LogCommonality at(CellIndex cell) const;
+  [[nodiscard]] evidence::FixedLogCommonality at(CellIndex cell) const;
   /// Combines one more piece of evidence into a cell (unnormalised conjunctive rule).
-  void add(CellIndex cell, const evidence::LogCommonality& increment);
+  void add(CellIndex cell, const evidence::FixedLogCommonality& increment);
 
   /// The tile to write to; made when absent. The reference stays valid until the tile is pruned or the grid dies.
   [[nodiscard]] Tile& tile(TileIndex index) { return tiles_[index]; }
@@ -67,8 +69,9 @@ class EvidentialGrid {
   /// Evidence that both maps hold is counted twice: merge maps of disjoint readings.
   /// \throws std::invalid_argument if the georeferences differ.
   void merge(const EvidentialGrid& other);
-  /// Takes back what `merge` added: the grid is as if `other` had never been merged.
-  /// \throws std::invalid_argument if the georeferences differ.
+  /// Takes back what `merge` added: the grid is as if `other` had never been merged, but for cells at the floor, which stay.
+  /// \throws std::invalid_argument if the georeferences differ, or a cell holds less evidence than is to be taken out, so
+  ///         that `other` cannot have been merged; the grid is unchanged then.
   void remove(const EvidentialGrid& other);
   /// Drops the tiles that hold no evidence.
   void prune();

@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "evidence/grid_mass.hpp"
 #include "grids/evidential_grid.hpp"
 
 namespace credo::grids {
@@ -20,18 +19,9 @@ struct DecisionParams {
   double contested_from = 0.8;   ///< from this balance of evidence for and against: contested, whatever the probability
 };
 
-/// Masses as the unnormalised conjunctive rule (the classic rule of the free DSm model) leaves them.
-[[nodiscard]] evidence::GridMass raw(const evidence::LogCommonality& cell);
-/// Masses after Dempster's normalisation: empty + occupied + unknown = 1, conflict = 0. Defined for every cell.
-[[nodiscard]] evidence::GridMass normalized(const evidence::LogCommonality& cell);
-/// Pignistic probability of "occupied" after normalisation.
-[[nodiscard]] double probability_occupied(const evidence::LogCommonality& cell);
-
-/// How evenly the evidence speaks for both sides: 2 min(v_e, v_o) / (v_e + v_o), with v the logarithm of the ratio of a
-/// commonality to that of the whole frame, the weight of evidence; 0 without evidence. [0, 1]
-[[nodiscard]] double contested(const evidence::LogCommonality& cell);
-
-[[nodiscard]] CellState decide(const evidence::LogCommonality& cell, const DecisionParams& params = {});
+/// What to call a cell. The read-outs themselves are those of evidence::LogCommonality.
+[[nodiscard]] CellState decide(const evidence::FixedLogCommonality& cell,
+                               const DecisionParams& params = {});
 
 /// What one number per cell can be asked for.
 enum class Layer {

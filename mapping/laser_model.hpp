@@ -16,7 +16,8 @@ concept LaserModel = requires(const Model& model, const sensors::RangeNoise& noi
   { model.free_mass() } -> std::convertible_to<evidence::GridMass>;
   { model.hit_mass() } -> std::convertible_to<evidence::GridMass>;
   { model.half_width(reading_m, noise) } -> std::convertible_to<double>;       // of the occupied interval [m]
-  { model.hit_reliability(reading_m, noise) } -> std::convertible_to<double>;  // of hit_mass, in [0, 1]
+  { model.hit_share(reading_m, noise) } -> std::convertible_to<double>;        // discounts hit_mass further, in [0, 1]
+  { model.reliability() } -> std::convertible_to<double>;                      // discounts both, in [0, 1)
 };
 
 struct Li2006LaserParams {
@@ -36,7 +37,8 @@ class Li2006Laser {
   [[nodiscard]] evidence::GridMass free_mass() const;
   [[nodiscard]] evidence::GridMass hit_mass() const;
   [[nodiscard]] double half_width(double reading_m, const sensors::RangeNoise& noise) const;
-  [[nodiscard]] double hit_reliability(double reading_m, const sensors::RangeNoise& noise) const;
+  [[nodiscard]] double hit_share(double reading_m, const sensors::RangeNoise& noise) const;
+  [[nodiscard]] double reliability() const { return params_.reliability; }
 
  private:
   Li2006LaserParams params_;

@@ -11,18 +11,11 @@
 #include "grids/evidential_grid.hpp"
 #include "mapping/laser_model.hpp"
 #include "mapping/pose_reliability.hpp"
+#include "mapping/scan_params.hpp"
 #include "mapping/sonar_model.hpp"
 #include "sensors/acquisition.hpp"
 
 namespace credo::mapping {
-
-/// How a scan is spread over the cells.
-struct ScanParams {
-  double max_range_m = 30.0;             ///< beams are cut here: free up to it, no hit beyond
-  double no_return_reliability = 0.1;    ///< of "empty" along a beam that nothing came back from
-  double no_return_range_m = 4.0;        ///< and up to here only, or range_max where that is nearer
-  double min_incidence_rad = 0.087;      ///< neighbouring hits lie on one surface if it is met at least this steeply
-};
 
 struct MapperParams {
   grids::Georeference georeference;

@@ -10,14 +10,15 @@
 
 namespace credo::mapping {
 
-/// What one reading of a transducer says about a cell at distance `rho` and angle `theta` from the beam axis.
-/// [m, rad; lengths from the transducer]
+/// What one reading of a transducer says about a cell at distance `rho` and angle `theta` from the beam axis, and how far
+/// such a reading is to be trusted. Lengths from the transducer; masses before discounting.
 template <typename Model>
 concept SonarModel = requires(const Model& model, double rho_m, double theta_rad, double reading_m) {
-  { model.mass(rho_m, theta_rad, reading_m) } -> std::convertible_to<evidence::GridMass>;   // an echo at reading_m
-  { model.no_echo_mass(rho_m, theta_rad) } -> std::convertible_to<evidence::GridMass>;      // nothing came back
-  { model.reach(reading_m) } -> std::convertible_to<double>;   // vacuous beyond; increasing
-  { model.cone() } -> std::convertible_to<sensors::SonarRing>;  // beam width and range limits
+  { model.mass(rho_m, theta_rad, reading_m) } -> std::same_as<evidence::GridMass>;  // an echo at reading_m
+  { model.reliability() } -> std::convertible_to<double>;                           // in [0, 1)
+  { model.no_echo_mass(rho_m, theta_rad) } -> std::same_as<evidence::GridMass>;     // nothing came back
+  { model.no_echo_reliability() } -> std::convertible_to<double>;
+  { model.reach(reading_m) } -> std::convertible_to<double>;  // vacuous beyond; no echo: of an infinite reading
 };
 
 /// The formulas as printed, brought to sum 1 by division; or as resolved (docs/equations.md): lambda on the conflict too,
@@ -40,15 +41,18 @@ class Li2007 {
   /// \throws std::invalid_argument if a parameter is out of its range or the beam is not between 0 and pi wide.
   Li2007(const sensors::SonarRing& ring, const Li2007Params& params = {});
 
-  /// Discounted masses of an echo at `reading_m`.
+  /// Resolved or printed masses of an echo at `reading_m`.
   [[nodiscard]] evidence::GridMass mass(double rho_m, double theta_rad, double reading_m) const;
-  /// Weak evidence of free space: eq. (5) with R = range_max, discounted.
+  [[nodiscard]] double reliability() const { return params_.reliability; }
+  /// Free space as of eq. (5) with R - 2 eps = range_max: no echo is taken as an echo from beyond the range.
   [[nodiscard]] evidence::GridMass no_echo_mass(double rho_m, double theta_rad) const;
-  [[nodiscard]] double reach(double reading_m) const { return reading_m + 2.0 * params_.epsilon_m; }
-  [[nodiscard]] const sensors::SonarRing& cone() const { return ring_; }
+  [[nodiscard]] double no_echo_reliability() const { return params_.no_echo_reliability; }
+  [[nodiscard]] double reach(double reading_m) const;
 
  private:
-  sensors::SonarRing ring_;
+  double beam_width_rad_ = 0.0;
+  double range_min_m_ = 0.0;
+  double range_max_m_ = 0.0;
   Li2007Params params_;
 };
 static_assert(SonarModel<Li2007>);

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "mapping/fan_painter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace credo::mapping {
+namespace {
+
+constexpr double kTableBins = 400.0;  // at most, over the range
+constexpr double kMostCells = 5000.0;  // along a beam
+
+/// The first column, or row, whose centre is not below a coordinate.
+int first_centre(double coordinate) { return static_cast<int>(std::ceil(coordinate - 0.5)); }
+
+/// Narrows [low, high] to the x on the inner side of an edge through the apex: all (x, dy) with
+/// cross(edge, (x, dy)) * side >= 0.
+void clip(double edge_x, double edge_y, double side, double dy, double& low, double& high) {
+  const double slope = -side * edge_y;  // of the cross product in x
+  const double constant = side * edge_x * dy;
+  if (slope > 0.0)
+    low = std::max(low, -constant / slope);
+  else if (slope < 0.0)
+    high = std::min(high, -constant / slope);
+  else if (constant < 0.0)
+    high = -std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+FanPainter::FanPainter(Source source, const sensors::SonarRing& ring, const grids::Georeference& georeference)
+    : source_(std::move(source)), georeference_(georeference), half_width_rad_(0.5 * ring.beam_width_rad) {
+  if (!(ring.beam_width_rad > 0.0 && ring.beam_width_rad < std::numbers::pi))
+    throw std::invalid_argument("sonar ring: beam_width must be between 0 and pi rad, not " +
+                                std::to_string(ring.beam_width_rad));
+  const double cells = ring.range_max_m / georeference.resolution_m;
+  if (!(cells >= 4.0 && cells <= kMostCells))
+    throw std::invalid_argument("sonar ring: a resolution of " + std::to_string(georeference.resolution_m) +
+                                " m does not fit a range of " + std::to_string(ring.range_max_m) +
+                                " m: choose one between " + std::to_string(ring.range_max_m / kMostCells) + " and " +
+                                std::to_string(ring.range_max_m / 4.0) + " m");
+  bin_m_ = std::max(0.5 * georeference.resolution_m, ring.range_max_m / kTableBins);
+  readings_ = static_cast<std::size_t>(ring.range_max_m / bin_m_) + 2;
+  tables_.resize(readings_ * kLevels);
+}
+
+const FanPainter::Table& FanPainter::table(double reading_m, int level) {
+  const bool echo = std::isfinite(reading_m);
+  const std::size_t bin = echo ? static_cast<std::size_t>(reading_m / bin_m_) : readings_ - 1;
+  Table& table = tables_[bin * kLevels + static_cast<std::size_t>(level - 1)];
+  if (!table.rows.empty()) return table;
+
+  const double reading = echo ? (static_cast<double>(bin) + 0.5) * bin_m_ : reading_m;
+  table.reading_m = reading;
+  const double reliability = reliability_of(level) * (echo ? source_.reliability : source_.no_echo_reliability);
+  const double widest = std::sin(half_width_rad_);
+  table.rows.resize(static_cast<std::size_t>(source_.reach(reading) / bin_m_) + 3);
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const double rho = (static_cast<double>(row) + 0.5) * bin_m_;
+    for (int a = 0; a < kAngleBins; ++a) {
+      const double theta = std::asin(std::sqrt((a + 0.5) / kAngleBins) * widest);
+      const evidence::GridMass mass = echo ? source_.mass(rho, theta, reading) : source_.no_echo_mass(rho, theta);
+      table.rows[row][a] = evidence::quantise(evidence::log_commonality(mass, reliability));
+    }
+  }
+  return table;
+}
+
+FanPainter::Fan FanPainter::fan(const geometry::Pose2& pose, double reach_m) const {
+  const double c = std::cos(pose.theta), s = std::sin(pose.theta);
+  const double ch = std::cos(half_width_rad_), sh = std::sin(half_width_rad_);
+  return {.x = (pose.x - georeference_.origin_x_m) / georeference_.resolution_m,
+          .y = (pose.y - georeference_.origin_y_m) / georeference_.resolution_m,
+          .axis_x = c,
+          .axis_y = s,
+          .right_x = c * ch + s * sh,
+          .right_y = s * ch - c * sh,
+          .left_x = c * ch - s * sh,
+          .left_y = s * ch + c * sh,
+          .radius = reach_m / georeference_.resolution_m,
+          .shift_m = 0.0};
+}
+
+void FanPainter::paint_rows(const Fan& fan, const Table& table, int begin, int end) {
+  const float axis_x = static_cast<float>(fan.axis_x), axis_y = static_cast<float>(fan.axis_y);
+  const float rho_bins = static_cast<float>(georeference_.resolution_m / bin_m_);
+  const float widest = static_cast<float>(std::sin(half_width_rad_));
+  const float angle_bins = static_cast<float>(kAngleBins) / (widest * widest);
+  const float shift = static_cast<float>(fan.shift_m / bin_m_);
+  const float last_rho = static_cast<float>(table.rows.size() - 1);
+  std::array<std::int32_t, grids::Tile::kSide> entry;
+  const evidence::FixedLogCommonality* const entries = table.rows.front().data();
+
+  for (int row = begin; row < end; ++row) {
+    const double dy = row + 0.5 - fan.y;
+    const double half = std::sqrt(std::max(0.0, fan.radius * fan.radius - dy * dy));
+    double low = -half, high = half;
+    clip(fan.right_x, fan.right_y, 1.0, dy, low, high);
+    clip(fan.left_x, fan.left_y, -1.0, dy, low, high);
+    if (!(low < high)) continue;
+    int column = first_centre(fan.x + low);
+    window_.for_run(row, column, first_centre(fan.x + high), [&](grids::Tile& tile, int place, int count) {
+      const float y = static_cast<float>(dy), first_x = static_cast<float>(column + 0.5 - fan.x);
+      for (int i = 0; i < count; ++i) {
+        const float x = first_x + static_cast<float>(i);
+        const float square = std::max(x * x + y * y, 1e-12F);
+        const float across = axis_x * y - axis_y * x;
+        const float rho = std::clamp(std::sqrt(square) * rho_bins + shift, 0.0F, last_rho);
+        const float angle = std::min(across * across / square * angle_bins, static_cast<float>(kAngleBins - 1));
+        entry[i] = static_cast<std::int32_t>(rho) * kAngleBins + static_cast<std::int32_t>(angle);
+      }
+      for (int i = 0; i < count; ++i) {
+        const evidence::FixedLogCommonality& increment = entries[entry[i]];
+        const auto add = [](std::int32_t& channel, std::int32_t value) {
+          channel = std::max(channel, evidence::FixedLogCommonality::kFloor - value) + value;
+        };
+        add(tile.empty[place + i], increment.empty);
+        add(tile.occupied[place + i], increment.occupied);
+        add(tile.unknown[place + i], increment.unknown);
+      }
+      column += count;
+    });
+  }
+}
+
+void FanPainter::paint(grids::EvidentialGrid& grid, const geometry::Pose2& pose, double reading_m, double reliability) {
+  const int level = level_of(reliability);
+  const double reach_m = source_.reach(reading_m);
+  if (level == 0 || !(reach_m > 0.0)) return;
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach_m + 2.0 * georeference_.resolution_m);
+  const grids::CellIndex least = georeference_.cell_at(pose.translation() - margin);
+  const grids::CellIndex most = georeference_.cell_at(pose.translation() + margin);
+  window_.open(grid, {least, most.x - least.x + 1, most.y - least.y + 1});
+
+  const Table& increments = table(reading_m, level);
+  Fan f = fan(pose, reach_m);
+  if (std::isfinite(reading_m)) f.shift_m = increments.reading_m - reading_m;
+  // The fan's rows: between the apex, the corners, and where the arc points straight up or down.
+  double low = std::min({0.0, f.right_y, f.left_y}), high = std::max({0.0, f.right_y, f.left_y});
+  if (f.right_x > 0.0 && f.left_x < 0.0) high = 1.0;
+  if (f.right_x < 0.0 && f.left_x > 0.0) low = -1.0;
+  paint_rows(f, increments, first_centre(f.y + f.radius * low), first_centre(f.y + f.radius * high));
+}
+
+}  // namespace credo::mapping

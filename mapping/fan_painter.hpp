@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "grids/evidential_grid.hpp"
+#include "mapping/evidence_levels.hpp"
+#include "mapping/sonar_model.hpp"
+#include "mapping/tile_window.hpp"
+
+namespace credo::mapping {
+
+/// Spreads single sonar readings over the fan of cells that they speak about ("restricted spreading", Li X. 2007, sec. 5.2).
+/// Increments come from tables over reading, distance and angle, made when first needed.
+class FanPainter {
+ public:
+  static constexpr int kAngleBins = 16;  ///< from the axis to the edge, of equal steps in the squared sine
+
+  /// \throws std::invalid_argument if the resolution does not fit the ring.
+  template <SonarModel Model>
+  FanPainter(const Model& model, const sensors::SonarRing& ring, const grids::Georeference& georeference)
+      : FanPainter(Source{[model](double rho, double theta, double reading) { return model.mass(rho, theta, reading); },
+                          [model](double rho, double theta) { return model.no_echo_mass(rho, theta); },
+                          [model](double reading) { return model.reach(reading); }, model.reliability(),
+                          model.no_echo_reliability()},
+                   ring, georeference) {}
+
+  /// \param T_map_transducer  where it was when it fired; its x axis is the beam axis
+  /// \param reading_m         at most the ring's range_max; inf: no echo
+  /// \param reliability       of the pose, in [0, 1]
+  /// \throws std::out_of_range if the pose is too far away to be addressed; the grid is unchanged then.
+  void paint(grids::EvidentialGrid& grid, const geometry::Pose2& T_map_transducer, double reading_m, double reliability);
+
+ private:
+  struct Source {
+    std::function<evidence::GridMass(double rho, double theta, double reading)> mass;
+    std::function<evidence::GridMass(double rho, double theta)> no_echo_mass;
+    std::function<double(double reading)> reach;
+    double reliability = 0.0;
+    double no_echo_reliability = 0.0;
+  };
+  /// Increments of one reading at one level, by distance (rows) and angle.
+  struct Table {
+    double reading_m = 0.0;  ///< that it was made for; distances are shifted so that a reading near to it fits
+    std::vector<std::array<evidence::FixedLogCommonality, kAngleBins>> rows;
+  };
+  /// A fan in cells.
+  struct Fan {
+    double x = 0.0, y = 0.0;            ///< apex
+    double axis_x = 0.0, axis_y = 0.0;  ///< unit vectors: the axis and the two edges, right and left
+    double right_x = 0.0, right_y = 0.0, left_x = 0.0, left_y = 0.0;
+    double radius = 0.0;
+    double shift_m = 0.0;  ///< added to distances before they are looked up
+  };
+
+  FanPainter(Source source, const sensors::SonarRing& ring, const grids::Georeference& georeference);
+  [[nodiscard]] const Table& table(double reading_m, int level);
+  [[nodiscard]] Fan fan(const geometry::Pose2& T_map_transducer, double reach_m) const;
+  void paint_rows(const Fan& fan, const Table& table, int begin, int end);
+
+  Source source_;
+  grids::Georeference georeference_;
+  double half_width_rad_ = 0.0;
+  double bin_m_ = 0.0;  ///< step of the tables in reading and in distance
+  std::vector<Table> tables_;  ///< by reading, then level; the last reading is "no echo"
+  std::size_t readings_ = 0;
+  TileWindow window_;
+};
+
+}  // namespace credo::mapping

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "mapping/laser_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace credo::mapping {
+namespace {
+
+constexpr evidence::GridMass kFree{.empty = 0.9, .occupied = 0.05, .conflict = 0.0, .unknown = 0.05};
+constexpr evidence::GridMass kHit{.empty = 0.05, .occupied = 0.9, .conflict = 0.0, .unknown = 0.05};
+
+}  // namespace
+
+evidence::GridMass laser_li2006(double rho_m, double reading_m, double epsilon_m) {
+  if (!(rho_m > 0.0)) return evidence::GridMass::vacuous();
+  if (rho_m < reading_m - epsilon_m) return kFree;
+  return rho_m <= reading_m + epsilon_m ? kHit : evidence::GridMass::vacuous();
+}
+
+Li2006Laser::Li2006Laser(const Li2006LaserParams& params) : params_(params) {
+  if (!(params.epsilon_m > 0.0 && std::isfinite(params.epsilon_m)))
+    throw std::invalid_argument("laser model: epsilon_m must be a finite length above 0");
+  if (!(params.sigmas >= 0.0 && std::isfinite(params.sigmas)))
+    throw std::invalid_argument("laser model: sigmas must be finite and not negative");
+  if (!(params.reliability >= 0.0 && params.reliability < 1.0))
+    throw std::invalid_argument("laser model: reliability must be in [0, 1): at 1 no later reading could correct it");
+}
+
+evidence::GridMass Li2006Laser::free_mass() const { return kFree; }
+evidence::GridMass Li2006Laser::hit_mass() const { return kHit; }
+
+double Li2006Laser::half_width(double reading_m, const sensors::RangeNoise& noise) const {
+  return std::max(params_.epsilon_m, params_.sigmas * noise.sigma(reading_m));
+}
+
+double Li2006Laser::hit_share(double reading_m, const sensors::RangeNoise& noise) const {
+  return params_.epsilon_m / half_width(reading_m, noise);
+}
+
+}  // namespace credo::mapping

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "mapping/mapper.hpp"
+
+namespace credo::mapping {
+namespace {
+
+/// Whether a trajectory has a pose within `max_gap_s` of a time, on the side or sides that it is interpolated from.
+bool covers(const sensors::MotionPath& trajectory, sensors::Timestamp time, double max_gap_s) {
+  const auto& rows = trajectory.rows();
+  const auto after = std::lower_bound(rows.begin(), rows.end(), time,
+                                      [](const sensors::OdometryReading& row, sensors::Timestamp t) { return row.time < t; });
+  const auto near = [&](const sensors::OdometryReading& row) {
+    return sensors::seconds_between(std::min(row.time, time), std::max(row.time, time)) <= max_gap_s;
+  };
+  const bool before_is_near = after != rows.begin() && near(*(after - 1));
+  const bool after_is_near = after != rows.end() && near(*after);
+  return before_is_near || after_is_near;
+}
+
+/// What one thread has mapped so far.
+struct Worker {
+  Mapper mapper;
+  std::int64_t without_pose = 0;
+};
+
+}  // namespace
+
+TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
+                        std::span<const sensors::RangeScan> scans, std::span<const sensors::SonarSweep> sweeps,
+                        const TrajectoryMappingParams& params) {
+  if (T_map_base.empty()) throw std::invalid_argument("the trajectory has no pose: nothing can be mapped along it");
+  // Sums of evidence do not depend on their order, so every thread maps what it gets into a grid of its own.
+  tbb::enumerable_thread_specific<Worker> workers([&] { return Worker{Mapper(rig, params.mapper), 0}; });
+  const auto insert = [&](const auto& reading) {
+    Worker& worker = workers.local();
+    if (!covers(T_map_base, reading.time, params.max_gap_s)) {
+      ++worker.without_pose;
+      return;
+    }
+    worker.mapper.insert({{T_map_base.pose_at(reading.time), params.covariance}, params.belief}, reading, T_map_base);
+  };
+  tbb::parallel_for(std::size_t{0}, scans.size(), [&](std::size_t i) { insert(scans[i]); });
+  tbb::parallel_for(std::size_t{0}, sweeps.size(), [&](std::size_t i) { insert(sweeps[i]); });
+
+  TrajectoryMap map{Mapper(rig, params.mapper).take_grid(), {}, 0};
+  for (Worker& worker : workers) {
+    map.grid.merge(worker.mapper.grid());
+    map.counts += worker.mapper.counts();
+    map.without_pose += worker.without_pose;
+  }
+  return map;
+}
+
+}  // namespace credo::mapping

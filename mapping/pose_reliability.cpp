@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "mapping/pose_reliability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace credo::mapping {
+
+PoseReliability::PoseReliability(const evidence::Believed<geometry::PoseEstimate>& T_map_base, double resolution_m,
+                                 const PoseReliabilityParams& params) {
+  const auto& [pose, covariance] = T_map_base.value;
+  if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.theta))
+    throw std::invalid_argument("a pose that readings are mapped from is not finite: leave its readings out");
+  if (!covariance.allFinite() || covariance.diagonal().minCoeff() < 0.0)
+    throw std::invalid_argument("the covariance of a pose is not finite or has a negative variance: leave its readings out");
+  if (!(params.half_at_sigma_cells > 0.0)) throw std::invalid_argument("half_at_sigma_cells must be above 0");
+
+  const double pignistic = T_map_base.belief.pignistic();
+  if (!(pignistic >= params.min_pignistic)) return;
+  belief_ = std::min(pignistic, 1.0);
+  // The larger eigenvalue of the 2x2 covariance of the position.
+  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
+  const double position_variance =
+      mean + std::hypot(0.5 * (covariance(0, 0) - covariance(1, 1)), 0.5 * (covariance(0, 1) + covariance(1, 0)));
+  const double half = params.half_at_sigma_cells * resolution_m;
+  position_share_ = position_variance / (half * half);
+  heading_share_ = covariance(2, 2) / (half * half);
+}
+
+}  // namespace credo::mapping

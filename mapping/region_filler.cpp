@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "mapping/region_filler.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace credo::mapping {
+namespace {
+
+using evidence::FixedLogCommonality;
+
+/// channel = max(channel + increment, floor), in a form that the compiler vectorises. Precondition: increment <= 0.
+void add_to_channel(std::int32_t* channel, int count, std::int32_t increment) {
+  const std::int32_t lowest = FixedLogCommonality::kFloor - increment;
+  for (int i = 0; i < count; ++i) channel[i] = std::max(channel[i], lowest) + increment;
+}
+
+/// The first row, or column, whose centre is not below a coordinate.
+std::int32_t first_centre(double coordinate) { return static_cast<std::int32_t>(std::ceil(coordinate - 0.5)); }
+
+}  // namespace
+
+/// How often the contours of each class wind around the place between two crossings.
+struct RegionFiller::Winding {
+  std::array<std::int16_t, kClasses> turns{};
+  std::uint64_t inside = 0;  ///< bit c: turns[c] != 0
+
+  void cross(const Crossing& crossing) {
+    const std::uint64_t bit = std::uint64_t{1} << crossing.region_class;
+    std::int16_t& count = turns[crossing.region_class];
+    count = static_cast<std::int16_t>(count + crossing.direction);
+    inside = count != 0 ? inside | bit : inside & ~bit;
+  }
+  [[nodiscard]] int highest() const { return static_cast<int>(std::bit_width(inside)) - 1; }
+};
+
+void RegionFiller::add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int region_class) {
+  assert(region_class >= 0 && region_class < kClasses);
+  const bool up = from.y() < to.y();
+  const Eigen::Vector2d& low = up ? from : to;   // both directions of an edge must cross a row at the same place
+  const Eigen::Vector2d& high = up ? to : from;
+  const std::int32_t begin = first_centre(low.y()), end = first_centre(high.y());
+  if (begin >= end) return;
+  const double slope = (high.x() - low.x()) / (high.y() - low.y());
+  for (std::int32_t row = begin; row < end; ++row) {
+    const double x = low.x() + (row + 0.5 - low.y()) * slope;
+    crossings_.push_back({row, first_centre(x), static_cast<std::int16_t>(region_class),
+                          static_cast<std::int16_t>(up ? 1 : -1)});
+  }
+}
+
+void RegionFiller::sort_by_row() {
+  const auto [lowest, highest] = std::minmax_element(crossings_.begin(), crossings_.end(),
+                                                     [](const Crossing& a, const Crossing& b) { return a.row < b.row; });
+  first_row_ = lowest->row;
+  row_begin_.assign(static_cast<std::size_t>(highest->row - first_row_) + 2, 0);
+  for (const Crossing& crossing : crossings_) ++row_begin_[crossing.row - first_row_ + 1];
+  for (std::size_t row = 1; row < row_begin_.size(); ++row) row_begin_[row] += row_begin_[row - 1];
+  sorted_.resize(crossings_.size());
+  // Places each crossing and moves its row's begin on, so that the begin of a row becomes that of the next.
+  for (const Crossing& crossing : crossings_) sorted_[row_begin_[crossing.row - first_row_]++] = crossing;
+  std::rotate(row_begin_.begin(), row_begin_.end() - 1, row_begin_.end());
+  row_begin_.front() = 0;
+}
+
+void RegionFiller::fill_row(std::span<Crossing> row, std::span<const FixedLogCommonality> increments) {
+  // Rows hold a few crossings, in nearly the right order: insertion sort.
+  for (std::size_t i = 1; i < row.size(); ++i) {
+    for (std::size_t j = i; j > 0 && row[j].column < row[j - 1].column; --j) std::swap(row[j], row[j - 1]);
+  }
+  Winding winding;
+  for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+    winding.cross(row[i]);
+    if (winding.inside == 0 || row[i].column == row[i + 1].column) continue;
+    const FixedLogCommonality& increment = increments[winding.highest()];
+    window_.for_run(row[i].row, row[i].column, row[i + 1].column, [&increment](grids::Tile& tile, int place, int count) {
+      add_to_channel(tile.empty.data() + place, count, increment.empty);
+      add_to_channel(tile.occupied.data() + place, count, increment.occupied);
+      add_to_channel(tile.unknown.data() + place, count, increment.unknown);
+    });
+  }
+}
+
+void RegionFiller::fill(grids::EvidentialGrid& grid, std::span<const FixedLogCommonality> increments) {
+  if (crossings_.empty()) return;
+  sort_by_row();
+  const auto [left, right] = std::minmax_element(
+      crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) { return a.column < b.column; });
+  const int rows = static_cast<int>(row_begin_.size()) - 1;
+  window_.open(grid, {{left->column, first_row_}, std::max(1, right->column - left->column), rows});
+  for (int row = 0; row < rows; ++row)
+    fill_row(std::span(sorted_).subspan(row_begin_[row], row_begin_[row + 1] - row_begin_[row]), increments);
+  clear();
+}
+
+}  // namespace credo::mapping

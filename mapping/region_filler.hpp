@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "grids/evidential_grid.hpp"
+#include "mapping/tile_window.hpp"
+
+namespace credo::mapping {
+
+/// Adds evidence to all cells whose centres lie in regions of the plane, row by row. A region is a class, given by closed
+/// contours of directed edges; a cell is inside if the contours wind around it. Where regions overlap the higher class
+/// counts: every cell is updated once.
+class RegionFiller {
+ public:
+  static constexpr int kClasses = 64;
+
+  void clear() { crossings_.clear(); }
+
+  /// An edge of the contour of a class, in cells: cell (i, j) spans [i, i+1) x [j, j+1).
+  void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int region_class);
+
+  /// Adds increments[class] to every cell inside, then forgets the contours.
+  void fill(grids::EvidentialGrid& grid, std::span<const evidence::FixedLogCommonality> increments);
+
+ private:
+  struct Crossing {
+    std::int32_t row;
+    std::int32_t column;  ///< the first cell whose centre is not left of the edge
+    std::int16_t region_class;
+    std::int16_t direction;  ///< +1: the edge goes up
+  };
+  struct Winding;
+
+  void sort_by_row();
+  void fill_row(std::span<Crossing> row, std::span<const evidence::FixedLogCommonality> increments);
+
+  std::vector<Crossing> crossings_;
+  std::vector<Crossing> sorted_;
+  std::vector<std::uint32_t> row_begin_;
+  std::int32_t first_row_ = 0;
+  TileWindow window_;
+};
+
+}  // namespace credo::mapping
