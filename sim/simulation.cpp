@@ -23,7 +23,7 @@ namespace {
 using sensors::Timestamp;
 
 constexpr Timestamp kStart = 1'600'000'000'000'000'000;  // ns
-constexpr double kSharpEnough_px = 0.5;                  // motion during the exposure between two rendered poses
+constexpr double kSharpEnough_px = 1.0;                  // motion during the exposure between two rendered poses
 constexpr int kMostExposures = 4;
 constexpr double kNearestWall_m = 1.0;                   // for judging motion blur
 constexpr std::size_t kBatch = 16;                       // images rendered before they are delivered
