@@ -56,12 +56,11 @@ void AnnulusTable::add_row(const sensors::OmniCamera& camera, const AnnulusRow& 
     Tap tap{.offset = v0 * camera.width_px + u0, .weight = {}};
     const int right = static_cast<int>(std::lround(kWeightSum * fu));
     const int lower = static_cast<int>(std::lround(kWeightSum * fv));
-    const int both = static_cast<int>(std::lround(kWeightSum * fu * fv));
+    const int both = std::max(static_cast<int>(std::lround(kWeightSum * fu * fv)), right + lower - kWeightSum);
     tap.weight[3] = static_cast<std::uint8_t>(both);
-    tap.weight[2] = static_cast<std::uint8_t>(std::max(0, lower - both));
-    tap.weight[1] = static_cast<std::uint8_t>(std::max(0, right - both));
-    tap.weight[0] = static_cast<std::uint8_t>(
-        std::max(0, kWeightSum - tap.weight[1] - tap.weight[2] - tap.weight[3]));
+    tap.weight[2] = static_cast<std::uint8_t>(lower - both);
+    tap.weight[1] = static_cast<std::uint8_t>(right - both);
+    tap.weight[0] = static_cast<std::uint8_t>(kWeightSum - right - lower + both);
     taps_.push_back(tap);
     bool usable = u == pixel.x() && v == pixel.y();
     for (int corner = 0; usable && corner < 4 && !camera.mask.empty(); ++corner) {
@@ -77,8 +76,8 @@ void AnnulusTable::sample(const std::uint8_t* pixels, int row, std::int16_t* out
   for (int i = 0; i < columns; ++i, ++tap) {
     const std::uint8_t* upper = pixels + tap->offset;
     const std::uint8_t* lower = upper + width_px_;
-    const int sum = tap->weight[0] * upper[0] + tap->weight[1] * upper[1] + tap->weight[2] * lower[0] +
-                    tap->weight[3] * lower[1];
+    const int sum =
+        tap->weight[0] * upper[0] + tap->weight[1] * upper[1] + tap->weight[2] * lower[0] + tap->weight[3] * lower[1];
     out[i] = static_cast<std::int16_t>(sum >> kWeightShift);
   }
 }

@@ -31,7 +31,10 @@ int largest_magnitude(const std::int16_t* values) {
 }  // namespace
 
 AzimuthEdgeFilter::AzimuthEdgeFilter(const EdgeFilterParams& params, double column_px, int max_columns)
-    : params_(params), samples_(max_columns + 2 * kMargin), response_(max_columns + 2 * kMargin) {
+    : params_(params),
+      column_px_(column_px),
+      samples_(max_columns + 2 * kMargin),
+      response_(max_columns + 2 * kMargin) {
   const double sigma = std::max(1.0, params.sigma_px / column_px);  // in columns, at least one
   std::array<double, kReach> ideal{};
   double sum = 0.0;
@@ -55,6 +58,8 @@ AzimuthEdgeFilter::AzimuthEdgeFilter(const EdgeFilterParams& params, double colu
     const double here = i >= 0 ? kernel[i] : 0.0;
     difference_square += (ahead - here) * (ahead - here);
   }
+  nominal_width_ = std::hypot(sigma, params.expected_blur_px / column_px);
+  width_columns_ = nominal_width_;
   noise_gain_ = AnnulusTable::kScale * kInterpolationNoise * std::sqrt(square);
   extremum_gain_ = AnnulusTable::kScale * kInterpolationNoise * std::sqrt(difference_square) / 2.0;
 }
@@ -68,53 +73,112 @@ void AzimuthEdgeFilter::filter_row(const AnnulusTable& table, const std::uint8_t
   std::int16_t* response = response_.data() + kMargin;
   const auto [t1, t2, t3, t4] = taps_;
   for (int i = 0; i < columns; ++i) {
-    response[i] = static_cast<std::int16_t>(t1 * (sample[i + 1] - sample[i - 1]) + t2 * (sample[i + 2] - sample[i - 2]) +
-                                            t3 * (sample[i + 3] - sample[i - 3]) + t4 * (sample[i + 4] - sample[i - 4]));
+    response[i] =
+        static_cast<std::int16_t>(t1 * (sample[i + 1] - sample[i - 1]) + t2 * (sample[i + 2] - sample[i - 2]) +
+                                  t3 * (sample[i + 3] - sample[i - 3]) + t4 * (sample[i + 4] - sample[i - 4]));
   }
   response[-1] = response[columns - 1];
   response[columns] = response[0];
 }
 
-double AzimuthEdgeFilter::estimate_noise(const AnnulusTable& table, const std::uint8_t* pixels) {
+void AzimuthEdgeFilter::measure_widths(int columns, int least) {
+  const std::int16_t* response = response_.data() + kMargin;
+  for (int i = 0; i < columns; ++i) {
+    const int here = std::abs(response[i]);
+    const int before = std::abs(response[i - 1]);
+    const int after = std::abs(response[i + 1]);
+    if (here < least || here < before || here <= after) continue;
+    // A Gaussian of width w has the curvature -1/w^2 of its height at its top, and nearly so over three columns.
+    widths_.push_back(static_cast<float>(std::sqrt(here / (2.0 * here - before - after))));
+  }
+}
+
+void AzimuthEdgeFilter::measure(const AnnulusTable& table, const std::uint8_t* pixels) {
   constexpr int kBins = 512;
   constexpr int kBinWidth = 4;
+  constexpr std::size_t kLeastWidths = 20;
   std::array<int, kBins> counts{};
   int total = 0;
+  widths_.clear();
+  const int clear_step = static_cast<int>(4.0 * params_.least_step * gain_);
   for (int row = 0; row < static_cast<int>(table.rows().size()); row += params_.noise_row_step) {
     filter_row(table, pixels, row);
     const int columns = table.rows()[row].columns;
     for (int i = 0; i < columns; ++i) ++counts[std::min(kBins - 1, std::abs(response_[kMargin + i]) / kBinWidth)];
     total += columns;
+    measure_widths(columns, clear_step);
   }
   int below = 0;
   int bin = 0;
   while (bin < kBins - 1 && 2 * (below + counts[bin]) < total) below += counts[bin++];
   const double inside = counts[bin] > 0 ? (0.5 * total - below) / counts[bin] : 0.0;
-  return kMedianToSigma * kBinWidth * (bin + std::clamp(inside, 0.0, 1.0)) / noise_gain_;
+  noise_ = kMedianToSigma * kBinWidth * (bin + std::clamp(inside, 0.0, 1.0)) / noise_gain_;
+  width_columns_ = nominal_width_;
+  if (widths_.size() < kLeastWidths) return;
+  const auto median = widths_.begin() + static_cast<std::ptrdiff_t>(widths_.size() / 2);
+  std::nth_element(widths_.begin(), median, widths_.end());
+  width_columns_ = std::clamp(static_cast<double>(*median), 0.6 * nominal_width_, 2.0 * nominal_width_);
 }
 
-void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixels, double noise,
-                             std::vector<EdgeHit>& hits) {
-  const double threshold = std::max(params_.least_step * gain_, params_.least_step_sigmas * noise * noise_gain_);
+void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixels, std::vector<EdgeHit>& hits) {
+  const double threshold = std::max(params_.least_step * gain_, params_.least_step_sigmas * noise_ * noise_gain_);
   const int least = static_cast<int>(std::min(threshold, 32767.0));
   for (int row = 0; row < static_cast<int>(table.rows().size()); ++row) {
     filter_row(table, pixels, row);
     const std::int16_t* response = response_.data() + kMargin;
     const int columns = table.rows()[row].columns;
+    const std::size_t first = hits.size();
     for (int block = 0; block < columns; block += kBlock) {
       if (largest_magnitude(response + block) < least) continue;
       for (int i = block; i < block + kBlock; ++i) {
         const int here = response[i];
         const bool rising = here >= least && here >= response[i - 1] && here > response[i + 1];
         const bool falling = here <= -least && here <= response[i - 1] && here < response[i + 1];
-        if (rising || falling) add_hit(table, row, i, noise, hits);
+        if (rising || falling) add_hit(table, row, i, hits);
       }
     }
+    separate(table.rows()[row], hits, first);
   }
 }
 
-void AzimuthEdgeFilter::add_hit(const AnnulusTable& table, int row, int column, double noise,
-                                std::vector<EdgeHit>& hits) const {
+/// Two steps a1, a2 at x1 < x2 whose answers are Gaussians g of width w: the extremum near x1 lies where
+/// a1 (m - x1) g(m - x1) + a2 (m - x2) g(m - x2) = 0, so m - x1 = (a2 / a1) d g(d) / g(m - x1) with d = x2 - m. To
+/// first order the last g is 1; the measured heights give a1, a2 by two linear equations with g(d).
+void AzimuthEdgeFilter::separate(const AnnulusRow& circle, std::vector<EdgeHit>& hits, std::size_t first) const {
+  const double width = width_columns_ * 2.0 * std::numbers::pi / circle.columns;
+  const double reach = params_.neighbour_reach * width;
+  double carried = 0.0;  // shift of the later hit by the pair before
+  for (std::size_t i = first; i + 1 < hits.size(); ++i) {
+    EdgeHit& a = hits[i];
+    EdgeHit& b = hits[i + 1];
+    const double apparent = b.azimuth - a.azimuth;
+    double shift_a = 0.0;
+    double shift_b = 0.0;
+    if (apparent < reach) {
+      double distance = apparent;
+      for (int round = 0; round < 3; ++round) {  // the true distance is what the shifts leave of the apparent one
+        const double overlap = std::exp(-0.5 * (distance / width) * (distance / width));
+        const double a_step = a.step - overlap * b.step;
+        const double b_step = b.step - overlap * a.step;
+        const double limit = 0.35 * apparent;
+        shift_a = std::clamp(b_step / a_step * distance * overlap, -limit, limit);
+        shift_b = -std::clamp(a_step / b_step * distance * overlap, -limit, limit);
+        distance = std::max(width, apparent + shift_a - shift_b);
+      }
+    }
+    const double shift = shift_a + carried;
+    a.azimuth -= static_cast<float>(shift);
+    a.sigma = static_cast<float>(std::hypot(a.sigma, params_.neighbour_share * shift));
+    carried = shift_b;
+  }
+  if (hits.size() > first && carried != 0.0) {
+    EdgeHit& last = hits.back();
+    last.azimuth -= static_cast<float>(carried);
+    last.sigma = static_cast<float>(std::hypot(last.sigma, params_.neighbour_share * carried));
+  }
+}
+
+void AzimuthEdgeFilter::add_hit(const AnnulusTable& table, int row, int column, std::vector<EdgeHit>& hits) const {
   const AnnulusRow& circle = table.rows()[row];
   const std::int16_t* response = response_.data() + kMargin + column;
   const std::int16_t* sample = samples_.data() + kMargin + column;
@@ -131,15 +195,19 @@ void AzimuthEdgeFilter::add_hit(const AnnulusTable& table, int row, int column, 
   const double sign = response[0] > 0 ? 1.0 : -1.0;
   const double column_rad = 2.0 * std::numbers::pi / circle.columns;
   const double noise_px =
-      curvature > 0.0 ? extremum_gain_ * noise / curvature * column_rad * circle.radius_px : circle.radius_px;
+      curvature > 0.0 ? extremum_gain_ * noise_ / curvature * column_rad * circle.radius_px : circle.radius_px;
+  const double variance = curvature > 0.0 ? std::abs(response[0]) / curvature : width_columns_ * width_columns_;
+  const double sharp = params_.broad_from * width_columns_;
+  const double excess_px = column_px_ * std::sqrt(std::max(0.0, variance - sharp * sharp));
   const double model_px = saturated ? params_.saturated_sigma_px : params_.model_sigma_px;
   double azimuth = (column + sign * between) * column_rad;
   if (azimuth < 0.0) azimuth += 2.0 * std::numbers::pi;
-  hits.push_back({.azimuth = static_cast<float>(azimuth),
-                  .sigma = static_cast<float>(std::hypot(noise_px, model_px) / circle.radius_px),
-                  .step = static_cast<float>(response[0] / gain_),
-                  .row = static_cast<std::int16_t>(row),
-                  .saturated = saturated});
+  hits.push_back(
+      {.azimuth = static_cast<float>(azimuth),
+       .sigma = static_cast<float>(std::hypot(noise_px, model_px, params_.broad_share * excess_px) / circle.radius_px),
+       .step = static_cast<float>(response[0] / gain_),
+       .row = static_cast<std::int16_t>(row),
+       .saturated = saturated});
 }
 
 }  // namespace credo::perception

@@ -15,15 +15,16 @@ namespace credo::perception {
 /// horizon ring, where a wall stays a wall at any distance.
 struct GrayCurveParams {
   int circles = 5;
-  double half_width = 0.35;  ///< of the band they cover, as a share of the way from the horizon ring to the nearer border
+  double half_width =
+      0.35;  ///< of the band they cover, as a share of the way from the horizon ring to the nearer border
   int bins = 1024;
 };
 
 /// The radii of the circles. [px]
 [[nodiscard]] std::vector<double> gray_circles(const sensors::OmniCamera& camera, const GrayCurveParams& params);
 
-/// Mean grey level over the rows of a table (gray_circles), by azimuth; of a circle's samples the one nearest to the bin.
-/// \param scratch  at least table.max_columns() values
+/// Mean grey level over the rows of a table (gray_circles), by azimuth; of a circle's samples the one nearest to the
+/// bin. \param scratch  at least table.max_columns() values
 void read_gray_curve(const AnnulusTable& table, const std::uint8_t* pixels, double noise, int bins,
                      std::vector<std::int16_t>& scratch, GrayCurve& curve);
 

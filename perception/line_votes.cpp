@@ -100,7 +100,8 @@ double LineVotes::gather(const std::vector<EdgeHit>& hits, const AnnulusTable& a
                       .step = std::abs(hit.step)});
     if (std::abs(bin - peak.bin) <= 1) middle_.push_back(azimuth);
   });
-  std::stable_sort(points.begin(), points.end(), [](const RadialPoint& a, const RadialPoint& b) { return a.row < b.row; });
+  std::stable_sort(points.begin(), points.end(),
+                   [](const RadialPoint& a, const RadialPoint& b) { return a.row < b.row; });
   if (middle_.empty()) {
     points.clear();
     return 0.0;

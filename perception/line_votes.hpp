@@ -61,7 +61,7 @@ class LineVotes {
   std::vector<std::int32_t> order_;          ///< indices of hits, by slot, then row
   std::vector<std::uint8_t> used_;           ///< by hit
   std::vector<LinePeak> peaks_;
-  std::vector<double> middle_;               ///< scratch of gather()
+  std::vector<double> middle_;  ///< scratch of gather()
 };
 
 }  // namespace credo::perception

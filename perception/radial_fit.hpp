@@ -13,13 +13,13 @@ struct RadialPoint {
   double sigma = 0.0;    ///< [rad]
   double lever = 0.0;    ///< 1/radius - 1/horizon radius [1/px]
   int row = 0;
-  double step = 0.0;     ///< grey levels, >= 0
+  double step = 0.0;  ///< grey levels, >= 0
 };
 
 struct RadialFitParams {
-  double tukey = 4.685;        ///< where a point loses its weight, in robust standard deviations
+  double tukey = 4.685;  ///< where a point loses its weight, in robust standard deviations
   int iterations = 8;
-  double support_sigmas = 4.0;  ///< a point within this many standard deviations supports the line
+  double support_sigmas = 4.0;   ///< a point within this many standard deviations supports the line
   double error_inflation = 1.4;  ///< neighbouring circles share pixels and the sampling pattern
 };
 
@@ -28,9 +28,9 @@ struct RadialFit {
   double slope = 0.0;    ///< [rad px]
   double sigma = 0.0;    ///< of the azimuth [rad]
   double sigma_slope = 0.0;
-  double scale = 1.0;    ///< of the residuals, in expected standard deviations, >= 1
+  double scale = 1.0;     ///< of the residuals, in expected standard deviations, >= 1
   double contrast = 0.0;  ///< mean step of the supporting points [grey levels]
-  int rows = 0;          ///< rows with a supporting point
+  int rows = 0;           ///< rows with a supporting point
   int first_row = 0;
   int last_row = 0;
 };

@@ -22,8 +22,8 @@ void check(const sensors::OmniCamera& camera) {
   if (!(camera.inner_radius_px > 0.0) || !(camera.outer_radius_px > camera.inner_radius_px)) {
     throw std::invalid_argument("the camera's annulus needs an inner radius above 0 and an outer one above that");
   }
-  if (!camera.mask.empty() && (camera.mask.type() != CV_8UC1 || camera.mask.cols != camera.width_px ||
-                               camera.mask.rows != camera.height_px)) {
+  if (!camera.mask.empty() &&
+      (camera.mask.type() != CV_8UC1 || camera.mask.cols != camera.width_px || camera.mask.rows != camera.height_px)) {
     throw std::invalid_argument("the camera's mask must be an 8-bit grey image of the camera's resolution");
   }
 }
@@ -50,7 +50,8 @@ double horizon_radius(const sensors::OmniCamera& camera) {
                                         : 0.5 * (camera.inner_radius_px + camera.outer_radius_px);
 }
 
-/// Largest |tangent of the elevation| between the horizon ring and a border of the annulus: what a tilt is multiplied by.
+/// Largest |tangent of the elevation| between the horizon ring and a border of the annulus: what a tilt is multiplied
+/// by.
 double tilt_reach(const sensors::OmniCamera& camera) {
   const double horizon = horizon_radius(camera);
   const double far = std::max(camera.outer_radius_px - horizon, horizon - camera.inner_radius_px);
@@ -131,14 +132,15 @@ bool RadialLineExtractor::State::look(const std::uint8_t* pixels, Scene& scene) 
   int saturated = 0;
   for (int level = 0; level < 256; ++level) saturated += level > params.edges.saturated_level ? histogram[level] : 0;
   scene.saturated_share = total > 0 ? static_cast<double>(saturated) / total : 0.0;
-  noise = filter.estimate_noise(annulus, pixels);
+  filter.measure(annulus, pixels);
+  noise = filter.noise();
   const double least = std::max(params.least_spread, params.least_spread_sigmas * noise);
-  return total > 0 && level_at(0.9) - level_at(0.1) >= least &&
+  return total > 0 && level_at(0.99) - level_at(0.01) >= least &&
          scene.saturated_share <= params.largest_saturated_share;
 }
 
-/// Moves the hits to where they are seen from the rim's centre: a centre that is off by (du, dv) turns a point at radius r
-/// and image angle phi by (du sin phi - dv cos phi) / r.
+/// Moves the hits to where they are seen from the rim's centre: a centre that is off by (du, dv) turns a point at
+/// radius r and image angle phi by (du sin phi - dv cos phi) / r.
 void RadialLineExtractor::State::correct_hits() {
   const Eigen::Vector2d offset = rim.center_px() - annulus.center_px();
   if (offset.norm() == 0.0) return;
@@ -156,11 +158,14 @@ void RadialLineExtractor::State::correct_hits() {
 void RadialLineExtractor::State::fit_peak(const LinePeak& peak, std::vector<RadialLine>& lines) {
   const double start = votes.gather(hits, annulus, peak, params.window_rad, horizon_px, points);
   if (points.empty()) return;
-  const RadialFit fit = fit_radial_line(points, start, sigma_slope, params.fit);
+  RadialFit fit = fit_radial_line(points, start, sigma_slope, params.fit);
+  const double steepest =
+      params.largest_slope_sigmas * std::hypot(sigma_slope, fit.sigma_slope) + params.slope_margin_px;
+  // Hits of a neighbour or of something oblique bend a line: once more, held upright.
+  if (std::abs(fit.slope) > steepest) fit = fit_radial_line(points, start, params.upright_slope_px, params.fit);
   const double usable_rows = votes.usable_rows(peak.azimuth + fit.azimuth);
   if (fit.rows < params.least_visible_share * usable_rows || fit.contrast < params.least_contrast) return;
-  const double steepest = params.largest_slope_sigmas * std::hypot(sigma_slope, fit.sigma_slope) + params.slope_margin_px;
-  if (std::abs(fit.slope) > steepest) return;
+  if (std::abs(fit.slope) > steepest || fit.scale > params.largest_scale) return;
   const double calibration = rim.sigma_px() / horizon_px;
   lines.push_back({.azimuth = geometry::wrap_angle(peak.azimuth + fit.azimuth),
                    .sigma = std::hypot(fit.sigma, params.floor_sigma_rad, calibration),
@@ -205,12 +210,12 @@ void RadialLineExtractor::extract(const sensors::OmniImage& image, Scene& scene)
   state.rim.update(first);
   state.recenter();
   state.hits.clear();
-  state.filter.find(state.annulus, first, state.noise, state.hits);
+  state.filter.find(state.annulus, first, state.hits);
   state.correct_hits();
   // A centre that is off by c and a tilt t give slopes of c and of t tan(elevation) / (1/r - 1/horizon radius).
   const double lever = 1.0 / state.camera.inner_radius_px - 1.0 / state.camera.outer_radius_px;
-  state.sigma_slope = std::hypot(state.rim.sigma_px(), state.camera.accuracy.tilt_rad * tilt_reach(state.camera) / lever,
-                                 1e-3);
+  state.sigma_slope =
+      std::hypot(state.rim.sigma_px(), state.camera.accuracy.tilt_rad * tilt_reach(state.camera) / lever, 1e-3);
   state.find_lines(scene.radial_lines);
   state.struts.remove(first, state.noise, scene.radial_lines);
   read_gray_curve(state.gray, first, state.noise, state.params.gray.bins, state.scratch, scene.gray);

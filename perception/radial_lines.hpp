@@ -17,29 +17,31 @@ namespace credo::perception {
 
 struct RadialLineParams {
   // Sampling of the annulus.
-  double border_px = 3.0;   ///< kept free at the inner and outer border, where the reflection's blurred border is
+  double border_px = 3.0;  ///< kept free at the inner and outer border, where the reflection's blurred border is
   double row_step_px = 2.0;
-  double column_px = 0.7;   ///< distance of the samples along a circle
+  double column_px = 0.7;    ///< distance of the samples along a circle
   double recenter_px = 0.5;  ///< the tables are made anew when the rim has moved the centre further than that
   EdgeFilterParams edges;
 
   // Votes.
-  double bin_rad = 0.0044;          ///< of the votes' histogram; three neighbouring bins vote together
+  double bin_rad = 0.0044;            ///< of the votes' histogram; three neighbouring bins vote together
   double least_visible_share = 0.22;  ///< of the annulus' rows that support a line
   double least_chance_sigmas = 5.0;   ///< support beyond what scattered hits give by chance, in its standard deviations
   double least_contrast = 4.0;        ///< [grey levels]
 
   // Fit.
-  double window_rad = 0.010;       ///< hits that near to a line's votes take part in its fit
-  double own_hits_rad = 0.006;     ///< hits that near to a line are used up by it, besides 3 sigmas of a hit
+  double window_rad = 0.010;          ///< hits that near to a line's votes take part in its fit
+  double own_hits_rad = 0.006;        ///< hits that near to a line are used up by it, besides 3 sigmas of a hit
   double largest_slope_sigmas = 4.0;  ///< of the slope; steeper lines are not vertical
   double slope_margin_px = 0.15;      ///< of a slope beyond what centre and tilt explain
+  double upright_slope_px = 0.05;     ///< 1-sigma of the slope in the second fit of a line that came out too steep
+  double largest_scale = 4.0;         ///< of the residuals, in expected standard deviations
   double floor_sigma_rad = 0.0003;    ///< of a line's azimuth, whatever the fit says
   RadialFitParams fit;
 
   // Is there anything to be seen?
-  double least_spread = 6.0;           ///< between the 10th and 90th percentile of the annulus [grey levels]
-  double least_spread_sigmas = 4.0;    ///< the same in standard deviations of the noise
+  double least_spread = 6.0;             ///< between the 1st and 99th percentile of the annulus [grey levels]
+  double least_spread_sigmas = 7.0;      ///< the same in standard deviations of the noise
   double largest_saturated_share = 0.6;  ///< of the annulus
 
   RimParams rim;
@@ -50,10 +52,10 @@ struct RadialLineParams {
 /// Finds the radial lines of omnidirectional images and reads the grey-level curve, straight from the annulus through a
 /// table that is made once for a camera.
 ///
-/// Each circle of the annulus is filtered by the derivative of a Gaussian; the extrema vote, by sign, for their azimuth;
-/// the hits behind a peak of the votes are fitted robustly by azimuth(r) = azimuth + slope (1/r - 1/horizon radius). So
-/// the bearing is the one at the horizon ring, where a tilt of the mirror does not shift it. The centre is the mirror
-/// rim's where that is seen. The bars that hold the mirror are taken out.
+/// Each circle of the annulus is filtered by the derivative of a Gaussian; the extrema vote, by sign, for their
+/// azimuth; the hits behind a peak of the votes are fitted robustly by azimuth(r) = azimuth + slope (1/r - 1/horizon
+/// radius). So the bearing is the one at the horizon ring, where a tilt of the mirror does not shift it. The centre is
+/// the mirror rim's where that is seen. The bars that hold the mirror are taken out.
 class RadialLineExtractor {
  public:
   explicit RadialLineExtractor(const sensors::OmniCamera& camera, const RadialLineParams& params = {});

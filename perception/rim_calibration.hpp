@@ -16,14 +16,14 @@ namespace credo::perception {
 /// The centre of the mirror from its visible rim, and how it is smoothed over the images.
 struct RimParams {
   int directions = 256;
-  double search_px = 5.0;          ///< on both sides of the rim's calibrated radius, besides 3 sigmas of the centre
-  double step_px = 0.75;           ///< along a radius
-  double least_step = 6.0;         ///< fall of the grey level across the rim [grey levels]
-  double tukey_px = 1.2;           ///< where a direction loses its weight, in the last iterations
-  double least_share = 0.4;        ///< of the directions that must agree
-  double floor_sigma_px = 0.06;    ///< of the centre of one image, whatever the fit says
-  double walk_px = 0.02;           ///< how far the centre wanders from image to image
-  double agreement_sigmas = 5.0;   ///< further from the calibrated centre than that, the rim is not believed
+  double search_px = 5.0;         ///< on both sides of the rim's calibrated radius, besides 3 sigmas of the centre
+  double step_px = 0.75;          ///< along a radius
+  double least_step = 6.0;        ///< fall of the grey level across the rim [grey levels]
+  double tukey_px = 1.2;          ///< where a direction loses its weight, in the last iterations
+  double least_share = 0.4;       ///< of the directions that must agree
+  double floor_sigma_px = 0.06;   ///< of the centre of one image, whatever the fit says
+  double walk_px = 0.02;          ///< how far the centre wanders from image to image
+  double agreement_sigmas = 5.0;  ///< further from the calibrated centre than that, the rim is not believed
 };
 
 struct RimCircle {
