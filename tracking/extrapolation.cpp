@@ -21,6 +21,10 @@ void History::add_angle(int step, double value, double sigma, double period) {
   add(step, near, sigma);
 }
 
+void History::shift(double offset) {
+  for (int i = 0; i < size_; ++i) entries_[i].value += offset;
+}
+
 Extrapolated History::extrapolate(int count, int step) const {
   const int n = std::clamp(count, 1, size_);
   const Entry* const first = entries_.data() + size_ - n;

@@ -24,6 +24,9 @@ class History {
   /// An angle, unwrapped: added as the one of value + k period that is nearest to the value before.
   void add_angle(int step, double value, double sigma, double period);
 
+  /// Adds the same to all values: what is followed has changed, how it changes has not.
+  void shift(double offset);
+
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] int last_step() const { return entries_[size_ - 1].step; }
   [[nodiscard]] double last() const { return entries_[size_ - 1].value; }

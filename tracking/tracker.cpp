@@ -125,13 +125,10 @@ void Tracker::predict(const std::optional<geometry::PoseEstimate>& motion) {
 void Tracker::expect(int track, double azimuth, double sigma_azimuth) {
   State& s = *state_;
   assert(track >= 0 && track < static_cast<int>(s.tracks.size()));
-  const bool from_camera = s.tracks[track].last_seen.bearing_only;
   PolarPoint& point = s.companions[track].memory.now.point;
-  if (from_camera) point = seen_from(point, s.camera_origin);
   point.azimuth = geometry::wrap_angle(azimuth);
   point.covariance(0, 0) = sigma_azimuth * sigma_azimuth;
   point.covariance(0, 1) = point.covariance(1, 0) = 0.0;
-  if (from_camera) point = seen_from(point, -s.camera_origin);
   s.show_prediction(track);
 }
 
@@ -254,7 +251,6 @@ int Tracker::State::add(const perception::Scene& scene, int primitive, const evi
   companions.emplace_back().fresh = true;
   see(static_cast<int>(tracks.size()) - 1, scene, {.state = TrackState::kTracked, .primitive = primitive});
   if (primitive < static_cast<int>(taken.size())) taken[primitive] = 1;
-  std::erase(appeared, primitive);
   return static_cast<int>(tracks.size()) - 1;
 }
 
@@ -322,9 +318,13 @@ void Tracker::State::see(int track, const perception::Scene& scene, const Fate& 
   const perception::Primitive& primitive = scene.primitives[fate.primitive];
   Companion& companion = companions[track];
   Track& t = tracks[track];
-  const bool first = companion.fresh || fate.transition;
-  if (first) companion.memory = {};
-  observe(companion.memory, primitive, scene, step, first, params.prediction);
+  if (fate.transition) {
+    // From the middle of a face to the junction at its end, or back: another azimuth at much the same rate.
+    History azimuths = companion.memory.azimuths;
+    azimuths.shift(geometry::angle_difference(primitive.azimuth, companion.memory.now.point.azimuth));
+    companion.memory = {.now = {}, .azimuths = azimuths, .wall_angles = {}, .wall_distances = {}};
+  }
+  observe(companion.memory, primitive, scene, step, companion.fresh || fate.transition, params.prediction);
   companion.polarity = polarity_of(primitive, scene);
   adopt_type(track, primitive, fate.transition);
   t.state = TrackState::kTracked;

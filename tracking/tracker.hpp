@@ -46,8 +46,8 @@ class Tracker {
   void predict(const std::optional<geometry::PoseEstimate>& motion);
 
   /// Sharpens the prediction of one track with knowledge from outside (a map and a predicted pose): the azimuth at which it
-  /// should be seen in the coming scene: from the camera if it was last seen by the camera alone, from the base otherwise.
-  /// Between predict and associate. Under the default method walls are matched by their lines: see expect_wall.
+  /// should be seen in the coming scene, from the base origin. Between predict and associate. Under the default method walls are
+  /// matched by their lines: see expect_wall.
   /// \param sigma_azimuth  of the landmark and the predicted pose together, without that of the coming observation [rad]
   void expect(int track, double azimuth, double sigma_azimuth);
   /// The same for all that can be known of a point: its position in the base frame. [m, m^2]
@@ -59,6 +59,7 @@ class Tracker {
   /// \returns the matches; what is in none of them has appeared (`appeared()`).
   const std::vector<Match>& associate(const perception::Scene& scene);
   /// Primitives of the latest scene that continue no track and that no undecided track may yet turn out to own, by index.
+  /// Stays as it is while tracks are started.
   [[nodiscard]] const std::vector<int>& appeared() const;
 
   /// Starts a track with a primitive of the scene that was associated and that continues no track, unless its belief says NO

@@ -56,12 +56,14 @@ WallLine aligned_with(const WallLine& wall, const WallLine& reference) {
 WallDifference difference(const WallLine& seen, const WallLine& expected) {
   WallDifference result;
   result.angle = geometry::angle_difference(seen.angle, expected.angle);
-  const double from = std::max(seen.begin, expected.begin), to = std::min(seen.end, expected.end);
+  const double c = std::cos(result.angle), sine = std::sin(result.angle);
+  // The ends of `seen`, along `expected`.
+  const double begin = seen.begin * c - seen.distance * sine, end = seen.end * c - seen.distance * sine;
+  const double from = std::max(begin, expected.begin), to = std::min(end, expected.end);
   result.overlap = to - from;
   result.at = 0.5 * (from + to);
   // The point x = at t + d n of the expected line is moved along n until n_seen . x = d_seen.
-  result.across =
-      (seen.distance - expected.distance * std::cos(result.angle) + result.at * std::sin(result.angle)) / std::cos(result.angle);
+  result.across = (seen.distance - expected.distance * c + result.at * sine) / c;
   return result;
 }
 
