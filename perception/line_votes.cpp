@@ -20,7 +20,8 @@ LineVotes::LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& cam
     : bins_(std::max(16, static_cast<int>(std::lround(kTurn / bin_rad)))) {
   for (int bin = 0; bin < bins_; ++bin) {
     const double azimuth = (bin + 0.5) * kTurn / bins_;
-    directions_.push_back(camera.image_direction(azimuth - camera.T_base_camera.theta));
+    directions_.emplace_back(std::cos(azimuth), std::sin(azimuth));
+    in_image_.push_back(camera.image_direction(azimuth - camera.T_base_camera.theta));
     int usable = 0;
     for (int row = 0; row < static_cast<int>(annulus.rows().size()); ++row) {
       const int columns = annulus.rows()[row].columns;

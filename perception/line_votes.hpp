@@ -46,7 +46,9 @@ class LineVotes {
   [[nodiscard]] double usable_rows(double azimuth) const;
 
   /// image_direction() of the middle of the bin.
-  [[nodiscard]] const Eigen::Vector2d& image_direction(double azimuth) const { return directions_[bin_of(azimuth)]; }
+  [[nodiscard]] const Eigen::Vector2d& image_direction(double azimuth) const { return in_image_[bin_of(azimuth)]; }
+  /// Cosine and sine of the azimuth of the middle of the bin.
+  [[nodiscard]] const Eigen::Vector2d& direction(double azimuth) const { return directions_[bin_of(azimuth)]; }
 
  private:
   [[nodiscard]] int bin_of(double azimuth) const;  ///< azimuth in [-2 pi, 4 pi)
@@ -55,6 +57,7 @@ class LineVotes {
   void for_each_near(const LinePeak& peak, double window_rad, Visit&& visit) const;
 
   int bins_ = 0;
+  std::vector<Eigen::Vector2d> in_image_;    ///< by bin
   std::vector<Eigen::Vector2d> directions_;  ///< by bin
   std::vector<int> usable_rows_;             ///< by bin
   std::vector<int> begin_;                   ///< by slot, one more than there are: first of its hits in order_

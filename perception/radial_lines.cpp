@@ -50,15 +50,6 @@ double horizon_radius(const sensors::OmniCamera& camera) {
                                         : 0.5 * (camera.inner_radius_px + camera.outer_radius_px);
 }
 
-/// Largest |tangent of the elevation| between the horizon ring and a border of the annulus: what a tilt is multiplied
-/// by.
-double tilt_reach(const sensors::OmniCamera& camera) {
-  const double horizon = horizon_radius(camera);
-  const double far = std::max(camera.outer_radius_px - horizon, horizon - camera.inner_radius_px);
-  // A cone's elevation grows by 1/focal per pixel; a paraboloid's by 1/horizon radius.
-  return far / (camera.mirror && camera.mirror->focal_px > 0.0 ? camera.mirror->focal_px : horizon);
-}
-
 }  // namespace
 
 struct RadialLineExtractor::State {
@@ -73,17 +64,19 @@ struct RadialLineExtractor::State {
   RadialLineParams params;
   sensors::OmniCamera camera;
   RimCalibration rim;
+  double horizon_px;
+  MirrorTilt tilt;
   AnnulusTable annulus;
   AnnulusTable gray;
   AzimuthEdgeFilter filter;
   StrutFilter struts;
   LineVotes votes;
-  double horizon_px;
   double sigma_slope;  ///< of a line's slope beforehand [rad px]
   double noise = 0.0;
   cv::Mat gapless;  ///< copy of an image whose rows have gaps
   std::vector<EdgeHit> hits;
   std::vector<RadialPoint> points;
+  std::vector<SlopeReading> slopes;
   std::vector<std::int16_t> scratch;
 };
 
@@ -91,12 +84,13 @@ RadialLineExtractor::State::State(const sensors::OmniCamera& camera_in, const Ra
     : params(params_in),
       camera((check(camera_in), camera_in)),
       rim(camera, params.rim),
+      horizon_px(horizon_radius(camera)),
+      tilt(camera, horizon_px, annulus_radii(camera, params), params.tilt),
       annulus(camera, camera.center_px, annulus_radii(camera, params), params.column_px),
       gray(camera, camera.center_px, gray_circles(camera, params.gray), params.column_px),
       filter(params.edges, params.column_px, annulus.max_columns()),
       struts(camera, camera.center_px, params.column_px, params.struts),
       votes(annulus, camera, params.bin_rad),
-      horizon_px(horizon_radius(camera)),
       sigma_slope(0.0),
       scratch(static_cast<std::size_t>(std::max(annulus.max_columns(), gray.max_columns()))) {}
 
@@ -139,16 +133,15 @@ bool RadialLineExtractor::State::look(const std::uint8_t* pixels, Scene& scene) 
          scene.saturated_share <= params.largest_saturated_share;
 }
 
-/// Moves the hits to where they are seen from the rim's centre: a centre that is off by (du, dv) turns a point at
-/// radius r and image angle phi by (du sin phi - dv cos phi) / r.
+/// Moves the hits to where they are seen from the rim's centre along an upright axis. A centre that is off by (du, dv)
+/// turns a point at radius r and image angle phi by (du sin phi - dv cos phi) / r.
 void RadialLineExtractor::State::correct_hits() {
   const Eigen::Vector2d offset = rim.center_px() - annulus.center_px();
-  if (offset.norm() == 0.0) return;
   for (EdgeHit& hit : hits) {
-    const Eigen::Vector2d& direction = votes.image_direction(hit.azimuth);
-    const double turn = camera.azimuth_sign * (offset.x() * direction.y() - offset.y() * direction.x()) /
+    const Eigen::Vector2d& in_image = votes.image_direction(hit.azimuth);
+    const double turn = camera.azimuth_sign * (offset.x() * in_image.y() - offset.y() * in_image.x()) /
                         annulus.rows()[hit.row].radius_px;
-    double azimuth = hit.azimuth + turn;
+    double azimuth = hit.azimuth + turn - tilt.shift(hit.row, votes.direction(hit.azimuth));
     if (azimuth < 0.0) azimuth += kTurn;
     if (azimuth >= kTurn) azimuth -= kTurn;
     hit.azimuth = static_cast<float>(azimuth);
@@ -173,6 +166,10 @@ void RadialLineExtractor::State::fit_peak(const LinePeak& peak, std::vector<Radi
                    .polarity = peak.polarity,
                    .visible_share = std::min(1.0, fit.rows / usable_rows),
                    .slope = fit.slope});
+  // The slope as it would be without any expectation of it, where the line itself says more than half of it.
+  const double own_share = 1.0 - std::pow(fit.sigma_slope / (params.fit.error_inflation * fit.scale * sigma_slope), 2);
+  if (own_share > 0.5)
+    slopes.push_back({peak.azimuth + fit.azimuth, fit.slope / own_share, fit.sigma_slope / std::sqrt(own_share)});
   votes.use_up(hits, annulus, peak, fit, params.window_rad, params.own_hits_rad, horizon_px);
 }
 
@@ -212,11 +209,10 @@ void RadialLineExtractor::extract(const sensors::OmniImage& image, Scene& scene)
   state.hits.clear();
   state.filter.find(state.annulus, first, state.hits);
   state.correct_hits();
-  // A centre that is off by c and a tilt t give slopes of c and of t tan(elevation) / (1/r - 1/horizon radius).
-  const double lever = 1.0 / state.camera.inner_radius_px - 1.0 / state.camera.outer_radius_px;
-  state.sigma_slope =
-      std::hypot(state.rim.sigma_px(), state.camera.accuracy.tilt_rad * tilt_reach(state.camera) / lever, 1e-3);
+  state.slopes.clear();
+  state.sigma_slope = std::max(1e-3, std::hypot(state.rim.sigma_px(), state.tilt.slope_sigma()));
   state.find_lines(scene.radial_lines);
+  state.tilt.learn(state.slopes);
   state.struts.remove(first, state.noise, scene.radial_lines);
   read_gray_curve(state.gray, first, state.noise, state.params.gray.bins, state.scratch, scene.gray);
 }

@@ -7,6 +7,7 @@
 
 #include "perception/azimuth_edges.hpp"
 #include "perception/gray_curve.hpp"
+#include "perception/mirror_tilt.hpp"
 #include "perception/radial_fit.hpp"
 #include "perception/rim_calibration.hpp"
 #include "perception/scene.hpp"
@@ -45,6 +46,7 @@ struct RadialLineParams {
   double largest_saturated_share = 0.6;  ///< of the annulus
 
   RimParams rim;
+  TiltParams tilt;
   StrutParams struts;
   GrayCurveParams gray;
 };
