@@ -27,6 +27,14 @@ struct RadialLine {
 /// Which sensor saw an end of a segment (Clerentin et al., sec. 3.1).
 enum class EndpointSource { kRangeFinder, kCamera, kBoth };
 
+/// What a segment's end is. Ends by occlusion or by the limit of sight are no places of the world: they move with the robot.
+enum class SegmentEnd {
+  kJoined,    ///< meets the neighbouring segment
+  kFree,      ///< something farther is seen beside it: a vertical edge of the world
+  kOccluded,  ///< something nearer hides the rest
+  kUnseen     ///< no readings beside it
+};
+
 /// Mean grey level of five concentric circles, by azimuth (Clerentin et al., sec. 3.1, fifth criterion). Bin i holds the
 /// azimuths around 2 pi i / values.size(), in the directions of the base frame, seen from the camera.
 struct GrayCurve {
@@ -36,8 +44,8 @@ struct GrayCurve {
 
 /// A segment of the range scan, cut and sharpened by the radial lines, with the belief that it exists.
 struct FusedSegment {
-  geometry::Segment extent;      ///< in the base frame, a before b counter-clockwise
-  geometry::LineEstimate line;   ///< fitted to all its points
+  geometry::Segment extent{};    ///< in the base frame, a before b counter-clockwise
+  geometry::LineEstimate line{}; ///< fitted to all its points
   int first_point = 0;           ///< into Scene::points, inclusive
   int last_point = 0;            ///< inclusive
   EndpointSource source_a = EndpointSource::kRangeFinder;
@@ -45,8 +53,11 @@ struct FusedSegment {
   int radial_line_a = -1;        ///< index into Scene::radial_lines, -1 where the end is the range finder's
   int radial_line_b = -1;
   int endpoint_case = 1;         ///< 1..5 (Clerentin et al., fig. 5)
+  SegmentEnd end_a = SegmentEnd::kUnseen;  ///< kJoined where a radial line has cut it
+  SegmentEnd end_b = SegmentEnd::kUnseen;
+  int support = 0;               ///< points that agree with the line; the other ones between first and last are outliers
   std::array<evidence::BinaryMass, 5> criteria;  ///< m_1 .. m_5
-  evidence::BinaryMass existence;                ///< their fusion, conflict moved to ignorance once
+  evidence::BinaryMass existence{};              ///< their fusion, conflict moved to ignorance once
   double conflict = 0.0;                         ///< what was moved
 };
 
@@ -62,16 +73,24 @@ struct Primitive {
   double sigma_range_m = 0.0;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();        ///< base frame; a wall's is the middle of its extent
   Eigen::Matrix2d position_covariance = Eigen::Matrix2d::Zero();
-  double interior_angle = 0.0;  ///< of a junction, on the robot's side, (0, 2 pi) [rad]
+  double interior_angle = 0.0;  ///< of a junction, on the robot's side, (0, 2 pi) [rad]; 0: less than two faces are seen
   int radial_line = -1;         ///< index into Scene::radial_lines: its bearing is the camera's
   // Walls: the union of collinear touching segments.
-  geometry::Segment extent;
-  geometry::LineEstimate line;
+  geometry::Segment extent{};
+  geometry::LineEstimate line{};
   int first_segment = -1;  ///< into Scene::segments, inclusive; a junction's two segments are first and last
   int last_segment = -1;
-  evidence::BinaryMass existence;
+  SegmentEnd end_a = SegmentEnd::kUnseen;  ///< of a wall's extent
+  SegmentEnd end_b = SegmentEnd::kUnseen;
+  int support = 0;  ///< points that a wall's line is fitted to
+  evidence::BinaryMass existence{};
   double conflict = 0.0;     ///< met on the way to `existence`
   int endpoint_case = 0;     ///< the best of its segments, 1..5; 0 without a segment
+};
+
+/// Mean conflict of the criteria two by two, over the segments: pair[i][j] = m_i(YES) m_j(NO) + m_i(NO) m_j(YES), i != j.
+struct ConflictReport {
+  std::array<std::array<double, 5>, 5> pair{};
 };
 
 /// What one acquisition shows: the sensorial model of Clerentin et al., sec. 3.
@@ -80,16 +99,18 @@ struct Scene {
   Eigen::Vector2d camera_origin = Eigen::Vector2d::Zero();  ///< base frame; where the bearings of radial lines start
   std::vector<RadialLine> radial_lines;  ///< by azimuth
   GrayCurve gray;
-  std::vector<sensors::ScanPoint> points;  ///< base frame at `time`, by beam
-  std::vector<FusedSegment> segments;      ///< by beam
+  std::vector<sensors::ScanPoint> points;  ///< base frame at `time`, counter-clockwise
+  std::vector<FusedSegment> segments;      ///< counter-clockwise
   std::vector<Primitive> primitives;
   double mean_conflict = 0.0;  ///< of the five criteria over the segments
+  ConflictReport conflicts;
   bool camera_seen = false;    ///< an image was there and usable
   bool range_finder_seen = false;
   double saturated_share = 0.0;  ///< of the annulus
 };
 
 [[nodiscard]] const char* to_string(PrimitiveType type);
+[[nodiscard]] const char* to_string(SegmentEnd end);
 std::ostream& operator<<(std::ostream& out, const Primitive& primitive);
 
 }  // namespace credo::perception
