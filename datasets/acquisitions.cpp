@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "datasets/image_file.hpp"
 
@@ -103,8 +104,24 @@ Stretch stretch_of(const sensors::Acquisition& acquisition, const sensors::Rig& 
   return stretch;
 }
 
+/// Appends a row; one that was taken at a stop with the rest around it (AcquisitionParams::stop_and_go_from_s).
+void append_row(const std::vector<sensors::OdometryReading>& rows, std::size_t index, double stop_and_go_from_s,
+                std::vector<sensors::OdometryReading>& path) {
+  constexpr Timestamp kRest = sensors::MotionPath::kLongestExtrapolation;
+  const sensors::OdometryReading& row = rows[index];
+  const Timestamp from = sensors::from_seconds(stop_and_go_from_s);
+  const bool has_previous = index > 0, has_next = index + 1 < rows.size();
+  const Timestamp before = has_previous ? row.time - rows[index - 1].time : kLatest;
+  const Timestamp after = has_next ? rows[index + 1].time - row.time : kLatest;
+  const bool at_a_stop = rows.size() > 1 && before > from && after > from;
+  if (at_a_stop) path.push_back({row.time - (has_previous ? before / 4 : kRest), row.T_odom_base});
+  path.push_back(row);
+  if (at_a_stop) path.push_back({row.time + (has_next ? after / 4 : kRest), row.T_odom_base});
+}
+
 /// The odometry rows from the last one not after the stretch's start to the first one not before its end.
-sensors::MotionPath path_over(const std::vector<sensors::OdometryReading>& rows, const Stretch& stretch) {
+sensors::MotionPath path_over(const std::vector<sensors::OdometryReading>& rows, const Stretch& stretch,
+                              double stop_and_go_from_s) {
   const auto earlier = [](const sensors::OdometryReading& row, Timestamp t) { return row.time < t; };
   const auto later = [](Timestamp t, const sensors::OdometryReading& row) { return t < row.time; };
   auto begin = std::upper_bound(rows.begin(), rows.end(), stretch.first, later);
@@ -114,7 +131,10 @@ sensors::MotionPath path_over(const std::vector<sensors::OdometryReading>& rows,
   // Two rows at least where there are two: a path continues beyond its end with the velocity there.
   if (end - begin < 2 && begin != rows.begin()) --begin;
   if (end - begin < 2 && end != rows.end()) ++end;
-  return sensors::MotionPath(std::vector<sensors::OdometryReading>(begin, end));
+  std::vector<sensors::OdometryReading> path;
+  for (auto row = begin; row != end; ++row)
+    append_row(rows, static_cast<std::size_t>(row - rows.begin()), stop_and_go_from_s, path);
+  return sensors::MotionPath(std::move(path));
 }
 
 /// Whether odometry says where the robot was at a time, which it does for a moment beyond its ends.
@@ -124,14 +144,15 @@ bool knows(const std::vector<sensors::OdometryReading>& rows, Timestamp time) {
 }
 
 /// Fills path and motion. Where odometry has not begun or has died, both stay empty.
-void add_motion(const Dataset& dataset, Timestamp previous, sensors::Acquisition& acquisition) {
+void add_motion(const Dataset& dataset, const AcquisitionParams& params, Timestamp previous,
+                sensors::Acquisition& acquisition) {
   const bool is_first = previous == kEarliest;
   if (!dataset.header.rig.odometry || !knows(dataset.odometry, acquisition.time) ||
       (!is_first && !knows(dataset.odometry, previous)))
     return;
   Stretch stretch = stretch_of(acquisition, dataset.header.rig);
   if (!is_first) stretch.cover(previous);
-  acquisition.path = path_over(dataset.odometry, stretch);
+  acquisition.path = path_over(dataset.odometry, stretch, params.stop_and_go_from_s);
   if (!is_first) acquisition.motion = dataset.header.rig.odometry->along(acquisition.path, previous, acquisition.time);
 }
 
@@ -172,7 +193,7 @@ sensors::Acquisition Acquisitions::read(std::size_t index) const {
     const sensors::RangeScan* scan = nearest_row(dataset_->scans.front(), acquisition.time, within);
     if (scan != nullptr && !all_nan(scan->ranges_m)) acquisition.scan = *scan;
   }
-  add_motion(*dataset_, index == 0 ? kEarliest : times_[index - 1], acquisition);
+  add_motion(*dataset_, params_, index == 0 ? kEarliest : times_[index - 1], acquisition);
   return acquisition;
 }
 
@@ -182,7 +203,7 @@ sensors::Acquisition Acquisitions::trailing() const {
   for (const auto& scan : acquisition.scans) acquisition.time = std::max(acquisition.time, scan.time);
   for (const auto& sweep : acquisition.sonar) acquisition.time = std::max(acquisition.time, sweep.time);
   for (const auto& row : acquisition.odometry) acquisition.time = std::max(acquisition.time, row.time);
-  add_motion(*dataset_, times_.empty() ? kEarliest : times_.back(), acquisition);
+  add_motion(*dataset_, params_, times_.empty() ? kEarliest : times_.back(), acquisition);
   return acquisition;
 }
 

@@ -15,6 +15,10 @@ namespace credo::datasets {
 struct AcquisitionParams {
   /// The row of another camera or range finder belongs to an acquisition if it is at most this far from it.
   double nearest_within_s = 0.1;
+  /// An odometry row farther than this from both its neighbours was taken at a stop: no robot that drives reports so
+  /// rarely, but one that stops for each acquisition does. The path then rests around the row and moves in the middle half
+  /// of the interval, so that a scan taken at a stop is not bent by a motion that came later.
+  double stop_and_go_from_s = 1.0;
 };
 
 /// The acquisitions of a dataset, in order of time (docs/dataset-format.md, "Time"):

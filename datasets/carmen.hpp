@@ -43,4 +43,8 @@ struct CarmenLog {
 /// \throws FormatError with file and line: a truncated message, a number that is none, a log without any scan.
 [[nodiscard]] CarmenLog read_carmen(const std::filesystem::path& file, const CarmenParams& params = {});
 
+/// The log as a dataset in memory: acquisitions by the first laser (by the sonar where there is none), its poses as truth.
+/// What is done with datasets can then be done with logs.
+[[nodiscard]] Dataset to_dataset(CarmenLog log, std::string name);
+
 }  // namespace credo::datasets

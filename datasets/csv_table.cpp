@@ -26,8 +26,8 @@ std::string header_of(const std::vector<std::string>& columns) {
 
 }  // namespace
 
-CsvTable::CsvTable(const std::filesystem::path& file, std::vector<std::string> columns)
-    : file_(file), columns_(std::move(columns)), content_(read_text_file(file)) {
+CsvTable::CsvTable(const std::filesystem::path& file, std::vector<std::string> columns, std::string reason)
+    : file_(file), columns_(std::move(columns)), reason_(std::move(reason)), content_(read_text_file(file)) {
   if (content_.empty()) throw FormatError(file_, 0, "is empty; expected the header " + in_quotes(header_of(columns_)));
   check_header();
 }
@@ -73,7 +73,8 @@ bool CsvTable::next_row() {
 
 void CsvTable::fail_columns() const {
   const auto found = 1 + std::count(row_.begin(), row_.end(), ',');
-  fail("expected " + std::to_string(columns_.size()) + " columns, found " + std::to_string(found));
+  fail("expected " + std::to_string(columns_.size()) + " columns" + (reason_.empty() ? "" : " (" + reason_ + ")") + ", found " +
+       std::to_string(found));
 }
 
 std::string_view CsvTable::field() {

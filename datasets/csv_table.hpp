@@ -23,8 +23,9 @@ namespace credo::datasets {
 /// fields, empty lines and further lines that start with '#' do no harm.
 class CsvTable {
  public:
+  /// \param reason  why there are that many columns, for the complaint where there are not; may be empty
   /// \throws FormatError if the file cannot be read or its header differs
-  CsvTable(const std::filesystem::path& file, std::vector<std::string> columns);
+  CsvTable(const std::filesystem::path& file, std::vector<std::string> columns, std::string reason = {});
 
   /// Goes to the next row, after checking that the one before was read to its end.
   [[nodiscard]] bool next_row();
@@ -48,6 +49,7 @@ class CsvTable {
 
   std::filesystem::path file_;
   std::vector<std::string> columns_;
+  std::string reason_;
   std::string content_;
   std::size_t position_ = 0;  ///< of the next line
   int line_ = 0;

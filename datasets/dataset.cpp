@@ -65,7 +65,7 @@ template <typename Row>
 std::vector<Row> read_ranges(const fs::path& file, int sensor, int count, double range_min, double range_max,
                              SensorLog& log) {
   std::vector<Row> rows;
-  CsvTable table(file, reading_columns(count));
+  CsvTable table(file, reading_columns(count), "sensor.yaml tells of " + std::to_string(count) + " readings");
   while (table.next_row()) {
     Row row{.time = table.time(), .sensor = sensor, .ranges_m = std::vector<float>(static_cast<std::size_t>(count))};
     bool any = false;

@@ -3,6 +3,9 @@
 
 #include "datasets/image_file.hpp"
 
+#include <zlib.h>
+
+#include <cstdint>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -46,6 +49,21 @@ void check_png(const std::filesystem::path& file, std::string_view head, std::st
   check_size(file, big_endian(head.substr(16)), big_endian(head.substr(20)), width, height);
 }
 
+/// Walks through the chunks of a PNG, so that damage is found by their checksums and not complained about by libpng on
+/// the standard error stream.
+void check_png_chunks(const std::filesystem::path& file, std::string_view bytes) {
+  constexpr std::size_t kFrame = 12;  // length, name and checksum
+  for (std::size_t at = kPngSignature.size(); at < bytes.size();) {
+    const std::size_t left = bytes.size() - at;
+    const auto length = static_cast<std::size_t>(static_cast<std::uint32_t>(left < 4 ? 0 : big_endian(bytes.substr(at))));
+    if (left < kFrame || length > left - kFrame) fail_truncated(file);
+    const auto* const data = reinterpret_cast<const Bytef*>(bytes.data() + at + 4);
+    const auto checksum = static_cast<std::uint32_t>(crc32(crc32(0, nullptr, 0), data, static_cast<uInt>(length + 4)));
+    if (checksum != static_cast<std::uint32_t>(big_endian(bytes.substr(at + 8 + length)))) fail_truncated(file);
+    at += kFrame + length;
+  }
+}
+
 }  // namespace
 
 void check_image_file(const std::filesystem::path& file, int width_px, int height_px) {
@@ -67,6 +85,7 @@ cv::Mat read_grey_image(const std::filesystem::path& file, int width_px, int hei
   std::string bytes = read_binary_file(file);
   if (bytes.empty()) throw FormatError(file, 0, "is empty; expected an image");
   check_png(file, bytes, bytes, width_px, height_px);
+  if (bytes.starts_with(kPngSignature)) check_png_chunks(file, bytes);
   const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
   cv::Mat image;
   try {
