@@ -3,7 +3,6 @@
 
 #include "evidence/binary_mass.hpp"
 
-#include <cmath>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -13,7 +12,7 @@ namespace {
 
 constexpr double kMassTolerance = 1e-9;
 constexpr double kRescaleBelow = 0x1p-300;
-constexpr int kRescaleBits = 600;
+constexpr double kRescale = 0x1p600;
 
 Conjunction conjoin(std::span<const BinaryMass> sources) {
   Conjunction result;
@@ -39,24 +38,21 @@ BinaryMass BinaryMass::from(double yes, double no) {
 }
 
 void Conjunction::add(const BinaryMass& source) {
-  conflict_ += std::ldexp(yes_ * source.no + no_ * source.yes, -scale_);
+  conflict_ += unit_ * (yes_ * source.no + no_ * source.yes);
   yes_ = yes_ * (source.yes + source.unknown) + unknown_ * source.yes;
   no_ = no_ * (source.no + source.unknown) + unknown_ * source.no;
   unknown_ *= source.unknown;
   const double kept = yes_ + no_ + unknown_;
   if (kept < kRescaleBelow && kept > 0.0) {
-    yes_ = std::ldexp(yes_, kRescaleBits);
-    no_ = std::ldexp(no_, kRescaleBits);
-    unknown_ = std::ldexp(unknown_, kRescaleBits);
-    scale_ += kRescaleBits;
+    yes_ *= kRescale;
+    no_ *= kRescale;
+    unknown_ *= kRescale;
+    unit_ /= kRescale;
   }
 }
 
 OpenBinaryMass Conjunction::open() const {
-  return {.yes = std::ldexp(yes_, -scale_),
-          .no = std::ldexp(no_, -scale_),
-          .unknown = std::ldexp(unknown_, -scale_),
-          .conflict = conflict_};
+  return {.yes = unit_ * yes_, .no = unit_ * no_, .unknown = unit_ * unknown_, .conflict = conflict_};
 }
 
 std::optional<FusedBinaryMass> Conjunction::dempster() const {

@@ -65,9 +65,9 @@ class Conjunction {
   [[nodiscard]] std::optional<FusedBinaryMass> fuse(FusionRule rule) const;
 
  private:
-  // What is not in conflict, times 2^scale_: the conjunction of hundreds of opposed sources would underflow.
+  // What is not in conflict, in units of unit_: the conjunction of hundreds of opposed sources would underflow.
   double yes_ = 0.0, no_ = 0.0, unknown_ = 1.0;
-  int scale_ = 0;
+  double unit_ = 1.0;
   double conflict_ = 0.0;
 };
 

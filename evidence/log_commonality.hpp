@@ -88,8 +88,11 @@ struct FixedLogCommonality {
   friend constexpr bool operator==(const FixedLogCommonality&, const FixedLogCommonality&) = default;
 
  private:
+  // Stays in 32 bits, so that rows of cells are added four or eight at a time.
   static constexpr std::int32_t add(std::int32_t a, std::int32_t b) {
-    return static_cast<std::int32_t>(std::max<std::int64_t>(std::int64_t{a} + b, kFloor));
+    const auto sum = static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+    const bool overflow = ((a ^ sum) & (b ^ sum)) < 0;
+    return overflow ? kFloor : sum;
   }
   static constexpr std::int32_t subtract(std::int32_t a, std::int32_t b) {
     return a == kFloor ? kFloor : static_cast<std::int32_t>(std::int64_t{a} - b);
