@@ -25,7 +25,7 @@ struct TrackBelief {
 };
 
 /// An observation that denies itself is an unreliable source: its mass discounted by the reliability 1 - m(NO). One that says
-/// no YES at all is kept as it is (Clerentin et al., sec. 4.3).
+/// no YES at all is kept as it is (Clerentin et al., sec. 4.4).
 [[nodiscard]] BinaryMass discount_by_own_denial(const BinaryMass& observation);
 
 /// What a match contributes to a track: its YES; the rest is ignorance, never NO.
