@@ -21,7 +21,7 @@ struct Door {
   double width_m = 0.9;
   double height_m = 2.05;
   double frame_m = 0.06;               ///< width of the frame around it
-  std::optional<double> leaf_rad;      ///< opening: the leaf stands open at this angle to the wall
+  std::optional<double> leaf_rad = std::nullopt;  ///< of an opening: it stands open, on the side of `at`, at this angle
   std::string material = "door";
 };
 

@@ -15,7 +15,7 @@ namespace credo::sim {
 namespace {
 
 constexpr float kRefineContrast = 0.012F;  // radiance: where the corners of a pixel differ more, 9 rays are taken
-constexpr int kSub = 3;                    // per side
+constexpr int kSub = 3;                    // 3 x 3 rays, turned so that their 9 columns and rows are all different
 constexpr int kNoiseBits = 13;
 constexpr double kBezel_px = 5.0;          // the machined edge of the mirror, outside of its rim
 constexpr double kBezelGain = 22.0;        // grey levels
@@ -173,7 +173,8 @@ float OmniRenderer::refined(const PanelView& view, std::size_t corner, std::uint
   float sum = 0.0F;
   for (int j = 0; j < kSub; ++j)
     for (int i = 0; i < kSub; ++i) {
-      const float fu = (static_cast<float>(i) + 0.5F) / kSub, fv = (static_cast<float>(j) + 0.5F) / kSub;
+      const float fu = (static_cast<float>(kSub * i + j) + 0.5F) / (kSub * kSub);
+      const float fv = (static_cast<float>(kSub * j + kSub - 1 - i) + 0.5F) / (kSub * kSub);
       float ray[4];
       for (int k = 0; k < 4; ++k)
         ray[k] = (a[k] * (1.0F - fu) + b[k] * fu) * (1.0F - fv) + (c[k] * (1.0F - fu) + d[k] * fu) * fv;

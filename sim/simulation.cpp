@@ -181,12 +181,14 @@ void Simulation::Parts::deliver(const Reading& reading, OdometrySimulator& odome
   const auto pose = [&](double later) { return way.pose_at(seconds + later); };
   const auto sensor = static_cast<std::size_t>(reading.sensor);
   switch (reading.kind) {
-    case Reading::Kind::kEvent:
+    case Reading::Kind::kEvent: {
       // Being lifted turns no wheel.
-      odometry.advance(odometry_at.inverse() * way.pose_at(seconds - 1e-9));
-      odometry_at = way.pose_at(seconds);
+      const double when = way.carried()[reading.index];
+      odometry.advance(odometry_at.inverse() * way.pose_at(when - 1e-6));
+      odometry_at = way.pose_at(when);
       if (sink.event) sink.event(reading.time, "kidnapped");
       break;
+    }
     case Reading::Kind::kScan:
       if (sink.scan) sink.scan(ranges[sensor].scan(reading.time, pose, reading.index));
       break;

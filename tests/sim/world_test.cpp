@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "sim/world.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "geometry/segment.hpp"
+#include "sim/trajectory.hpp"
+#include "tests/sim/test_worlds.hpp"
+
+namespace credo::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::vector<std::string> shipped_worlds() {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(std::string(CREDO_SOURCE_DIR) + "/sim/worlds"))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  return files;
+}
+
+TEST(ShippedWorlds, AllLoadAndTheRobotFitsThrough) {
+  const auto files = shipped_worlds();
+  ASSERT_GE(files.size(), 5U);
+  for (const std::string& file : files) {
+    const World world = load_world(file);
+    EXPECT_EQ(world.name, fs::path(file).stem().string());
+    EXPECT_FALSE(world.description.empty()) << file;
+    const Trajectory way(world.path, world.drive);
+    for (double t = 0.0; t < way.duration_s(); t += 0.2) {
+      const Eigen::Vector2d at = way.pose_at(t).translation();
+      for (const Panel& panel : world.panels) {
+        if (panel.z0_m > 1.2) continue;
+        ASSERT_GT(geometry::distance(at, {panel.a, panel.b}), world.robot_radius_m)
+            << file << ": the robot hits something at " << at.transpose();
+      }
+    }
+  }
+}
+
+TEST(ShippedWorlds, TheCorridorEndHas42AcquisitionsOnTwoWays) {
+  const World one = load_world(shipped("corridor_end")), two = load_world(shipped("corridor_end_2"));
+  EXPECT_EQ(Trajectory(one.path, one.drive).stops().size(), 21U);
+  EXPECT_EQ(Trajectory(two.path, two.drive).stops().size(), 21U);
+  EXPECT_EQ(one.panels.size(), two.panels.size());
+}
+
+TEST(Builder, AnOpeningIsCutThroughBothFacesOfAWall) {
+  World world;
+  world.materials = common_materials();
+  Builder builder(world);
+  builder.add_walls({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, true, "wall", true);
+  builder.add_walls({{0, 3.12}, {4, 3.12}, {4, 6}, {0, 6}}, true, "wall", true);
+  builder.add_door({.at = {2.0, 3.0}, .kind = Door::Kind::kOpening, .width_m = 0.8});
+  int blocking = 0, jambs = 0;
+  for (const Panel& panel : world.panels) {
+    if (panel.z0_m > 1.0) continue;
+    blocking += geometry::distance({2.0, 3.06}, {panel.a, panel.b}) < 0.35;
+    jambs += std::abs((panel.b - panel.a).norm() - 0.12) < 1e-9 && panel.in_plan;
+  }
+  EXPECT_EQ(blocking, 0);
+  EXPECT_EQ(jambs, 2);
+  EXPECT_EQ(world.marks.size(), 4U);
+}
+
+TEST(Builder, AClosedDoorLeavesTheWallWholeAndMarksItsFrame) {
+  World world;
+  world.materials = common_materials();
+  Builder builder(world);
+  builder.add_walls({{0, 0}, {4, 0}}, false, "wall", true);
+  builder.add_door({.at = {2.0, 0.1}, .width_m = 0.9, .frame_m = 0.05});
+  EXPECT_EQ(std::count_if(world.panels.begin(), world.panels.end(), [](const Panel& p) { return p.in_plan; }), 1);
+  ASSERT_EQ(world.marks.size(), 4U);
+  for (const Eigen::Vector2d& mark : world.marks) EXPECT_NEAR(mark.y(), 0.0, 1e-12);
+}
+
+TEST(Builder, RefusesWhatDoesNotFit) {
+  World world;
+  world.materials = common_materials();
+  Builder builder(world);
+  builder.add_walls({{0, 0}, {1, 0}}, false, "wall", true);
+  EXPECT_THROW(builder.add_door({.at = {5.0, 0.0}}), std::invalid_argument);
+  EXPECT_THROW(builder.add_door({.at = {0.5, 0.0}, .width_m = 1.5}), std::invalid_argument);
+  EXPECT_THROW(builder.add_overlay({.at = {0.5, 0.0}, .material = "stone"}), std::invalid_argument);
+  EXPECT_THROW(builder.add_pillar({0, 0}, 0.3, 2, 0.0, "wall", true), std::invalid_argument);
+}
+
+constexpr const char* kGood = R"(format: credo-world/1
+name: tiny
+building:
+  rooms:
+    - outline: [[0, 0], [4, 0], [4, 3], [0, 3]]
+path: [[1, 1], [2, 1]]
+sensors:
+  range_finders:
+    - {preset: opensimple}
+)";
+
+/// What loading this text complains about; empty if it does not.
+std::string complaint(const std::string& text) {
+  const fs::path file = fs::path(testing::TempDir()) / "world.yaml";
+  std::ofstream(file) << text;
+  try {
+    (void)load_world(file);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string changed(const std::string& from, const std::string& to) {
+  std::string text = kGood;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(WorldFile, AMinimalOneLoads) { EXPECT_EQ(complaint(kGood), ""); }
+
+TEST(WorldFile, ComplaintsNameFileLineAndWhatToDo) {
+  struct Case {
+    const char *from, *to, *line, *says;
+  };
+  const Case cases[] = {
+      {"credo-world/1", "credo-world/9", ":1:", "credo-world/1"},
+      {"  rooms:", "  roms:", ":4:", "did you mean 'rooms'"},
+      {"building:", "bulding:", ":1:", "building"},
+      {"[4, 0]", "[4, zero]", ":5:", "2 numbers"},
+      {"[4, 0]", "[4, .nan]", ":5:", "2 numbers"},
+      {"[[0, 0], [4, 0], [4, 3], [0, 3]]", "[[0, 0], [4, 0]]", ":5:", "at least 3 corners"},
+      {"opensimple", "opensimpel", ":9:", "did you mean 'opensimple'"},
+      {"preset: opensimple", "preset: opensimple, k: -1", ":9:", "must not be negative"},
+      {"preset: opensimple", "preset: opensimple, count: many", ":9:", "whole number"},
+      {"preset: opensimple", "preset: opensimple, rnage_max: 3", ":9:", "did you mean 'range_max'"},
+      {"path: [[1, 1], [2, 1]]", "path: [[1, 1]]", ":6:", "at least two waypoints"},
+      {"path: [[1, 1], [2, 1]]", "path: [{carried_to: [1, 1]}, [2, 1]]", ":6:", "cannot be carried"},
+      {"name: tiny", "extends: nowhere.yaml", "nowhere.yaml", "cannot read"},
+      {"name: tiny", "extends: world.yaml", ":1:", "cannot extend itself"},
+      {"name: tiny", "name: [", "", "not valid YAML"},
+      {"  range_finders:\n    - {preset: opensimple}", "  odometry: {rate: 10}", ":8:", "needs a camera"},
+      {"path:", "drive: {mode: fly}\npath:", ":6:", "stop_and_go or continuous"},
+  };
+  for (const Case& c : cases) {
+    const std::string text = complaint(changed(c.from, c.to));
+    EXPECT_THAT(text, HasSubstr(c.says)) << c.to;
+    EXPECT_THAT(text, HasSubstr(c.line)) << c.to;
+  }
+}
+
+TEST(WorldFile, ThingsThatFindNoWallSayWhere) {
+  const std::string door = changed("    - outline", "    - outline: [[9, 9], [12, 9], [12, 12], [9, 12]]\n    - outline");
+  EXPECT_EQ(complaint(door), "");
+  EXPECT_THAT(complaint(changed("path:", "  doors: [{at: [2, 1.5]}]\npath:")), HasSubstr(":6: there is no wall within 0.5 m of [2, 1.5]"));
+  EXPECT_THAT(complaint(changed("path:", "  posters: [{at: [2, 0], material: papre}]\npath:")), HasSubstr("unknown material 'papre'"));
+}
+
+TEST(WorldFile, AMissingFileSaysSo) {
+  EXPECT_THROW(
+      {
+        try {
+          (void)load_world("/nowhere/at/all.yaml");
+        } catch (const std::runtime_error& error) {
+          EXPECT_THAT(error.what(), HasSubstr("cannot read this world file"));
+          throw;
+        }
+      },
+      std::runtime_error);
+}
+
+}  // namespace
+}  // namespace credo::sim
