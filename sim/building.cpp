@@ -13,9 +13,9 @@
 namespace credo::sim {
 namespace {
 
-constexpr double kReach_m = 0.5;        // to the wall that a thing is put on
-constexpr double kThickest_m = 0.4;     // wall between two rooms
-constexpr double kRelief_m = 0.004;     // of frames and posters on a wall
+constexpr double kReach_m = 0.5;     // to the wall that a thing is put on
+constexpr double kThickest_m = 0.4;  // wall between two rooms
+constexpr double kRelief_m = 0.004;  // of frames and posters on a wall
 constexpr double kHandleHeight_m = 1.0;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -35,7 +35,8 @@ int Builder::material(const std::string& name) const {
     names.push_back(world_->materials[i].name);
   }
   const std::string near = nearest_word(name, names);
-  throw std::invalid_argument("unknown material '" + name + "'" + (near.empty() ? "" : ": did you mean '" + near + "'?"));
+  throw std::invalid_argument("unknown material '" + name + "'" +
+                              (near.empty() ? "" : ": did you mean '" + near + "'?"));
 }
 
 void Builder::add_panel(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double z0_m, double z1_m, int material,
@@ -44,7 +45,8 @@ void Builder::add_panel(const Eigen::Vector2d& a, const Eigen::Vector2d& b, doub
   world_->panels.push_back({a, b, z0_m, z1_m, material, in_plan});
 }
 
-void Builder::add_walls(const std::vector<Eigen::Vector2d>& points, bool closed, const std::string& name, bool in_plan) {
+void Builder::add_walls(const std::vector<Eigen::Vector2d>& points, bool closed, const std::string& name,
+                        bool in_plan) {
   if (points.size() < 2) throw std::invalid_argument("a wall needs at least two points");
   const int wall = material(name);
   for (std::size_t i = 0; i + (closed ? 0U : 1U) < points.size(); ++i) {
@@ -61,16 +63,16 @@ void Builder::add_pillar(const Eigen::Vector2d& center, double radius_m, int sid
     const double angle = turn_rad + 2.0 * std::numbers::pi * (i + 0.5) / sides;
     return center + radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   };
-  for (int i = 0; i < sides; ++i)
-    add_panel(corner(i), corner(i + 1), 0.0, world_->ceiling_m, material(name), in_plan);
+  for (int i = 0; i < sides; ++i) add_panel(corner(i), corner(i + 1), 0.0, world_->ceiling_m, material(name), in_plan);
 }
 
 void Builder::add_box(const Eigen::Vector2d& center, const Eigen::Vector2d& size, double turn_rad, double z0_m,
                       double z1_m, const std::string& name, bool in_plan) {
   const geometry::Pose2 T_map_box{center.x(), center.y(), turn_rad};
   const Eigen::Vector2d h = 0.5 * size;
-  const Eigen::Vector2d corners[4] = {T_map_box * Eigen::Vector2d(-h.x(), -h.y()), T_map_box * Eigen::Vector2d(h.x(), -h.y()),
-                                      T_map_box * Eigen::Vector2d(h.x(), h.y()), T_map_box * Eigen::Vector2d(-h.x(), h.y())};
+  const Eigen::Vector2d corners[4] = {
+      T_map_box * Eigen::Vector2d(-h.x(), -h.y()), T_map_box * Eigen::Vector2d(h.x(), -h.y()),
+      T_map_box * Eigen::Vector2d(h.x(), h.y()), T_map_box * Eigen::Vector2d(-h.x(), h.y())};
   for (int i = 0; i < 4; ++i) add_panel(corners[i], corners[(i + 1) % 4], z0_m, z1_m, material(name), in_plan);
 }
 
@@ -207,17 +209,27 @@ void Builder::add_fixture(const Fixture& fixture) {
 
 std::vector<Material> common_materials() {
   const auto plain = [](const char* name, double albedo) { return Material{.name = name, .albedo = albedo}; };
-  std::vector<Material> materials{plain("plain", 0.8), plain("frame", 0.32),  plain("door", 0.55),  plain("dark", 0.07),
-                                  plain("wood", 0.42), plain("cabinet", 0.6), plain("board", 0.92), plain("poster", 0.3)};
+  std::vector<Material> materials{plain("plain", 0.8),  plain("frame", 0.32), plain("door", 0.55),
+                                  plain("dark", 0.07),  plain("wood", 0.42),  plain("cabinet", 0.6),
+                                  plain("board", 0.92), plain("poster", 0.3)};
   materials[3].infrared = 0.1;
   materials.push_back({.name = "wall", .albedo = 0.8, .skirting = true});
   materials.push_back({.name = "grey_wall", .albedo = 0.6, .skirting = true});
   materials.push_back({.name = "brick", .albedo = 0.5, .infrared = 0.5, .sonar_critical_rad = 0.7});
   materials.push_back({.name = "concrete", .albedo = 0.55, .infrared = 0.6, .sonar_critical_rad = 0.5});
-  materials.push_back({.name = "radiator", .albedo = 0.85, .pattern = Pattern::kStripes, .period_m = 0.08, .contrast = 0.4,
+  materials.push_back({.name = "radiator",
+                       .albedo = 0.85,
+                       .pattern = Pattern::kStripes,
+                       .period_m = 0.08,
+                       .contrast = 0.4,
                        .sonar_critical_rad = 0.6});
-  materials.push_back({.name = "books", .albedo = 0.75, .pattern = Pattern::kBooks, .period_m = 0.045, .contrast = 0.8,
-                       .infrared = 0.5, .sonar_critical_rad = 0.7});
+  materials.push_back({.name = "books",
+                       .albedo = 0.75,
+                       .pattern = Pattern::kBooks,
+                       .period_m = 0.045,
+                       .contrast = 0.8,
+                       .infrared = 0.5,
+                       .sonar_critical_rad = 0.7});
   materials.push_back({.name = "window", .albedo = 0.2, .emission = 1.6, .infrared = 0.1, .miss_share = 0.7});
   materials.push_back({.name = "glass", .albedo = 0.45, .infrared = 0.15, .miss_share = 0.7});
   return materials;

@@ -20,7 +20,7 @@ struct Door {
   Kind kind = Kind::kClosed;
   double width_m = 0.9;
   double height_m = 2.05;
-  double frame_m = 0.06;               ///< width of the frame around it
+  double frame_m = 0.06;                          ///< width of the frame around it
   std::optional<double> leaf_rad = std::nullopt;  ///< of an opening: it stands open, on the side of `at`, at this angle
   std::string material = "door";
 };
@@ -57,8 +57,8 @@ class Builder {
   /// A polyline of walls from floor to ceiling; closed if the last point is to be joined to the first.
   void add_walls(const std::vector<Eigen::Vector2d>& points, bool closed, const std::string& material, bool in_plan);
   /// A regular prism; 4 sides with `turn_rad` = 0 have faces along x and y, and `radius_m` goes to the corners.
-  void add_pillar(const Eigen::Vector2d& center, double radius_m, int sides, double turn_rad, const std::string& material,
-                  bool in_plan);
+  void add_pillar(const Eigen::Vector2d& center, double radius_m, int sides, double turn_rad,
+                  const std::string& material, bool in_plan);
   void add_box(const Eigen::Vector2d& center, const Eigen::Vector2d& size, double turn_rad, double z0_m, double z1_m,
                const std::string& material, bool in_plan);
   /// \throws std::invalid_argument  if there is no wall within 0.5 m, or the door does not fit into it.
@@ -79,7 +79,8 @@ class Builder {
   void cut_opening(const Door& door, const Spot& spot);
   void put_on(const Spot& spot, double from, double to, double z0_m, double z1_m, double off_m, int material);
   void add_frame(const Spot& spot, const Door& door);
-  void add_panel(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double z0_m, double z1_m, int material, bool in_plan);
+  void add_panel(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double z0_m, double z1_m, int material,
+                 bool in_plan);
 
   World* world_;
   std::vector<int> walls_;  ///< panels from floor to ceiling that things can be put on

@@ -59,8 +59,10 @@ LightMap::LightMap(const World& world) {
 }
 
 float LightMap::at(float x, float y) const {
-  const float u = std::clamp((x - origin_.x()) * static_cast<float>(1.0 / kCell_m), 0.0F, static_cast<float>(width_ - 1));
-  const float v = std::clamp((y - origin_.y()) * static_cast<float>(1.0 / kCell_m), 0.0F, static_cast<float>(height_ - 1));
+  const float u =
+      std::clamp((x - origin_.x()) * static_cast<float>(1.0 / kCell_m), 0.0F, static_cast<float>(width_ - 1));
+  const float v =
+      std::clamp((y - origin_.y()) * static_cast<float>(1.0 / kCell_m), 0.0F, static_cast<float>(height_ - 1));
   const int i = std::min(static_cast<int>(u), width_ - 2), j = std::min(static_cast<int>(v), height_ - 2);
   const float fu = u - static_cast<float>(i), fv = v - static_cast<float>(j);
   const float* row = values_.data() + j * width_ + i;
@@ -78,8 +80,9 @@ float albedo_at(const Material& material, int surface, float along, float z, flo
   float dark = static_cast<float>(index % 2);
   if (!stripes) {
     const auto board = static_cast<std::uint64_t>(z / static_cast<float>(kShelfBoard_m));
-    dark = static_cast<float>(mix_bits(index * 977 + board * 31 + static_cast<std::uint64_t>(surface) * 65537 + 1) >> 40) *
-           0x1p-24F;
+    dark =
+        static_cast<float>(mix_bits(index * 977 + board * 31 + static_cast<std::uint64_t>(surface) * 65537 + 1) >> 40) *
+        0x1p-24F;
   }
   const float sharp = std::clamp(1.5F - footprint_m / cell, 0.0F, 1.0F);
   return albedo * (1.0F - static_cast<float>(material.contrast) * (0.5F + sharp * (dark - 0.5F)));

@@ -24,8 +24,8 @@ class LightMap {
   std::vector<float> values_;
 };
 
-/// Albedo of a surface of `material` at `along` metres from its start and height `z`, averaged over `footprint_m` along it
-/// (a pattern too fine to be seen is grey); `surface` tells equal shelves apart.
+/// Albedo of a surface of `material` at `along` metres from its start and height `z`, averaged over `footprint_m` along
+/// it (a pattern too fine to be seen is grey); `surface` tells equal shelves apart.
 [[nodiscard]] float albedo_at(const Material& material, int surface, float along, float z, float footprint_m,
                               float skirting_m);
 

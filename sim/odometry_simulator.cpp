@@ -30,7 +30,9 @@ geometry::Pose2 OdometrySimulator::advance(const geometry::Pose2& T_from_to) {
   // First-order Gauss-Markov over the way driven; a radian on the spot wanders like half a metre.
   const double keep = std::exp(-(way + 0.5 * std::abs(turn)) / kCorrelation_m);
   const double fresh = kHalf * std::sqrt(1.0 - keep * keep);
-  const auto wander = [&](Error& error, double sigma) { error.wandering = keep * error.wandering + random_.normal(fresh * sigma); };
+  const auto wander = [&](Error& error, double sigma) {
+    error.wandering = keep * error.wandering + random_.normal(fresh * sigma);
+  };
   wander(translation_, noise_.translation_per_metre);
   wander(rotation_, noise_.rotation_per_metre);
   wander(turning_, noise_.rotation_per_radian);

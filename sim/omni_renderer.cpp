@@ -17,10 +17,10 @@ namespace {
 constexpr float kRefineContrast = 0.012F;  // radiance: where the corners of a pixel differ more, 9 rays are taken
 constexpr int kSub = 3;                    // 3 x 3 rays, turned so that their 9 columns and rows are all different
 constexpr int kNoiseBits = 13;
-constexpr double kBezel_px = 5.0;          // the machined edge of the mirror, outside of its rim
-constexpr double kBezelGain = 22.0;        // grey levels
-constexpr double kDark_grey = 4.0;         // outside of the mirror
-constexpr double kBody_grey = 38.0;        // the camera that sees itself in the middle
+constexpr double kBezel_px = 5.0;    // the machined edge of the mirror, outside of its rim
+constexpr double kBezelGain = 22.0;  // grey levels
+constexpr double kDark_grey = 4.0;   // outside of the mirror
+constexpr double kBody_grey = 38.0;  // the camera that sees itself in the middle
 
 /// How much of a pixel at `radius` lies inside of a circle.
 double inside(double radius, double circle) { return std::clamp(circle - radius + 0.5, 0.0, 1.0); }
@@ -37,11 +37,13 @@ struct Speck {
   double radius, depth;
 };
 
-std::vector<Speck> draw_dust(const Nuisances& nuisances, const Eigen::Vector2d& center, double outer, std::uint64_t seed) {
+std::vector<Speck> draw_dust(const Nuisances& nuisances, const Eigen::Vector2d& center, double outer,
+                             std::uint64_t seed) {
   Random random(seed, kDustStream);
   std::vector<Speck> specks;
   for (int i = 0; i < nuisances.dust; ++i) {
-    const double radius = outer * std::sqrt(random.uniform(0.1, 1.0)), angle = random.uniform(0.0, 2.0 * std::numbers::pi);
+    const double radius = outer * std::sqrt(random.uniform(0.1, 1.0)),
+                 angle = random.uniform(0.0, 2.0 * std::numbers::pi);
     specks.push_back({center + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)), random.uniform(1.5, 4.0),
                       random.uniform(0.1, 0.35)});
   }
@@ -84,16 +86,19 @@ void OmniRenderer::draw_calibration_errors(std::uint64_t seed) {
   optics_ = ConicOptics::of(setup_->camera);
   optics_.center_px += Eigen::Vector2d(random.normal(sigma.center_px), random.normal(sigma.center_px));
   const double roll = random.normal(sigma.tilt_rad), pitch = random.normal(sigma.tilt_rad);
-  optics_.tilt = (Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()) *
-                  Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY())).toRotationMatrix();
+  optics_.tilt =
+      (Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()))
+          .toRotationMatrix();
   const geometry::Pose2 error{random.normal(sigma.mounting_m), random.normal(sigma.mounting_m),
                               random.normal(sigma.mounting_rad)};
   const geometry::Pose2& calibrated = setup_->camera.T_base_camera;
-  T_base_camera_ = {calibrated.x + error.x, calibrated.y + error.y, geometry::wrap_angle(calibrated.theta + error.theta)};
+  T_base_camera_ = {calibrated.x + error.x, calibrated.y + error.y,
+                    geometry::wrap_angle(calibrated.theta + error.theta)};
 }
 
-/// The ray of every pixel corner: independent of the pose, so that no frame computes an angle. Between corners, rays are
-/// interpolated: the horizontal part is linear in the pixel, the rest bends by less than 1e-3 of itself over a pixel.
+/// The ray of every pixel corner: independent of the pose, so that no frame computes an angle. Between corners, rays
+/// are interpolated: the horizontal part is linear in the pixel, the rest bends by less than 1e-3 of itself over a
+/// pixel.
 void OmniRenderer::make_ray_table() {
   const int width = setup_->camera.width_px + 1, height = setup_->camera.height_px + 1;
   rays_.resize(4U * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -128,16 +133,18 @@ void OmniRenderer::make_static_image(std::uint64_t seed) {
       for (const Speck& speck : dust)
         through *= 1.0 - speck.depth * inside((Eigen::Vector2d(u, v) - speck.center).norm() / speck.radius, 1.0);
       const double response = 1.0 + pixel.normal(world_->nuisances.pixel_gain);
-      const double bezel = kBezelGain * (1.0 + 0.5 * d.x() / std::max(radius, 1.0)) * (inside(radius, rim + kBezel_px) - mirror);
-      gain_.at<float>(v, u) = static_cast<float>(world_->exposure_gain * fall_off(camera, radius) * (mirror - own) * through *
-                                                 response);
+      const double bezel =
+          kBezelGain * (1.0 + 0.5 * d.x() / std::max(radius, 1.0)) * (inside(radius, rim + kBezel_px) - mirror);
+      gain_.at<float>(v, u) =
+          static_cast<float>(world_->exposure_gain * fall_off(camera, radius) * (mirror - own) * through * response);
       base_.at<float>(v, u) =
           static_cast<float>(kDark_grey + through * (bezel + own * body_grey(radius, camera.inner_radius_px)));
     }
 }
 
-/// Quantiles of the normal distribution at equal steps of probability, by Newton's method from one to the next; and what a
-/// pixel adds in noise by its grey level: read noise and photon noise, whose variance grows with the light (EMVA 1288).
+/// Quantiles of the normal distribution at equal steps of probability, by Newton's method from one to the next; and
+/// what a pixel adds in noise by its grey level: read noise and photon noise, whose variance grows with the light (EMVA
+/// 1288).
 void OmniRenderer::make_noise_table() {
   constexpr int kCount = 1 << kNoiseBits;
   noise_.resize(kCount);
@@ -153,12 +160,14 @@ void OmniRenderer::make_noise_table() {
   const double read = std::min(world_->nuisances.read_noise_grey, world_->nuisances.noise_grey);
   const double total = world_->nuisances.noise_grey;
   const double gain = (total * total - read * read) / 128.0;
-  for (int grey = 0; grey <= 255; ++grey) noise_sigma_.push_back(static_cast<float>(std::sqrt(read * read + gain * grey)));
+  for (int grey = 0; grey <= 255; ++grey)
+    noise_sigma_.push_back(static_cast<float>(std::sqrt(read * read + gain * grey)));
 }
 
 /// \param ray  direction x, y, z and slope, as in the table
 float OmniRenderer::radiance(const PanelView& view, const float ray[4], std::uint16_t bin) const {
-  const float origin[3] = {static_cast<float>(optics_.tilt(0, 2)) * ray[3], static_cast<float>(optics_.tilt(1, 2)) * ray[3],
+  const float origin[3] = {static_cast<float>(optics_.tilt(0, 2)) * ray[3],
+                           static_cast<float>(optics_.tilt(1, 2)) * ray[3],
                            static_cast<float>(optics_.tilt(2, 2)) * ray[3]};
   return view.radiance(view.trace(bin, origin, ray), light_, origin, ray);
 }
@@ -241,7 +250,8 @@ cv::Mat OmniRenderer::render_ideal(std::span<const geometry::Pose2> T_map_base, 
   return image;
 }
 
-cv::Mat OmniRenderer::render(std::span<const geometry::Pose2> T_map_base, std::uint64_t index, Workspace& workspace) const {
+cv::Mat OmniRenderer::render(std::span<const geometry::Pose2> T_map_base, std::uint64_t index,
+                             Workspace& workspace) const {
   return expose(render_ideal(T_map_base, workspace), index);
 }
 

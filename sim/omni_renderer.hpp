@@ -19,11 +19,13 @@ namespace credo::sim {
 /// What the bars that hold the mirror let through, at an offset from the mirror's centre in the image. 0..1
 [[nodiscard]] double strut_transmission(const CameraSetup& setup, const Eigen::Vector2d& offset_px);
 
-/// The brightness of an image point by its radius, relative to the centre: cos^4 of the camera ray and the mirror's own.
+/// The brightness of an image point by its radius, relative to the centre: cos^4 of the camera ray and the mirror's
+/// own.
 [[nodiscard]] double fall_off(const sensors::OmniCamera& camera, double radius_px);
 
-/// Pictures of a world through a conic mirror, with all that a real camera adds: light fall-off, struts, dust, the mirror's
-/// rim, defocus, motion blur, glare, noise. Const after construction; threads share it, each with its own Workspace.
+/// Pictures of a world through a conic mirror, with all that a real camera adds: light fall-off, struts, dust, the
+/// mirror's rim, defocus, motion blur, glare, noise. Const after construction; threads share it, each with its own
+/// Workspace.
 class OmniRenderer {
  public:
   /// \param world  is kept by reference and must have a camera with a mirror.
@@ -37,18 +39,17 @@ class OmniRenderer {
     cv::Mat image;               ///< CV_32FC1, mean grey levels
   };
 
-  /// The image, CV_8UC1, that the camera takes while the robot base moves through `T_map_base` (at least one pose, equally
-  /// spaced over the exposure).
-  /// \param index  of the image: selects its noise
+  /// The image, CV_8UC1, that the camera takes while the robot base moves through `T_map_base` (at least one pose,
+  /// equally spaced over the exposure). \param index  of the image: selects its noise
   [[nodiscard]] cv::Mat render(std::span<const geometry::Pose2> T_map_base, std::uint64_t index,
                                Workspace& workspace) const;
 
   /// What `render` would give without noise and quantisation, not cut off at white: mean grey levels, CV_32FC1.
   [[nodiscard]] cv::Mat render_ideal(std::span<const geometry::Pose2> T_map_base, Workspace& workspace) const;
 
-  /// Vertical edges in view, by azimuth: of every panel's ends and every step of its pattern, what an ideal camera at the
-  /// true place sees of it on `kRows` circles, with a contrast of at least `kFaintest_grey` on 5 % of them. Edges closer
-  /// together than 0.15 degrees count as one.
+  /// Vertical edges in view, by azimuth: of every panel's ends and every step of its pattern, what an ideal camera at
+  /// the true place sees of it on `kRows` circles, with a contrast of at least `kFaintest_grey` on 5 % of them. Edges
+  /// closer together than 0.15 degrees count as one.
   [[nodiscard]] std::vector<TrueVertical> true_verticals(const geometry::Pose2& T_map_base, Workspace& workspace) const;
 
   /// The camera as it really is.
@@ -75,8 +76,8 @@ class OmniRenderer {
   std::uint64_t seed_;
   ConicOptics optics_;
   geometry::Pose2 T_base_camera_;
-  cv::Mat gain_;  ///< CV_32FC1: grey levels per unit of radiance
-  cv::Mat base_;  ///< CV_32FC1: grey levels of the camera's own parts
+  cv::Mat gain_;             ///< CV_32FC1: grey levels per unit of radiance
+  cv::Mat base_;             ///< CV_32FC1: grey levels of the camera's own parts
   std::vector<float> rays_;  ///< of each pixel corner, row by row: direction x, y, z, and the slope of the ray
   std::vector<std::uint16_t> bins_;
   std::vector<float> noise_;        ///< standard normal quantiles

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kBins = 1024;
 constexpr double kBinWidth = 2.0 * std::numbers::pi / kBins;
-constexpr float kSeam = 1e-4F;      // panels overlap by this share at their ends: no light through the seams [m]
+constexpr float kSeam = 1e-4F;        // panels overlap by this share at their ends: no light through the seams [m]
 constexpr float kTooClose_m = 0.02F;  // a panel through the camera is not drawn
 constexpr float kDirectedLight = 0.35F;
 
@@ -42,8 +42,7 @@ bool under_a_lamp(const CeilingLamps& lamps, double x, double y) {
 float floor_albedo(const World& world, double x, double y) {
   const float albedo = static_cast<float>(world.floor_albedo);
   if (world.floor_tile_m <= 0.0) return albedo;
-  const auto tile =
-      static_cast<std::int64_t>(std::floor(x / world.floor_tile_m) + std::floor(y / world.floor_tile_m));
+  const auto tile = static_cast<std::int64_t>(std::floor(x / world.floor_tile_m) + std::floor(y / world.floor_tile_m));
   return tile % 2 == 0 ? albedo : 0.8F * albedo;
 }
 

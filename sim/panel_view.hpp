@@ -53,7 +53,7 @@ class PanelView {
     float ax, ay, ex, ey;  // start and extent, camera frame [m]
     float z0, z1;          // above the floor [m]
     float length;
-    float facing;          // 0..1
+    float facing;  // 0..1
     int panel;
     bool full_height;
   };

@@ -14,8 +14,8 @@
 namespace credo::sim {
 namespace {
 
-constexpr double kMargin_m = 0.5;  // of the map around the building
-constexpr int kLargestMap = 20000; // cells per side
+constexpr double kMargin_m = 0.5;   // of the map around the building
+constexpr int kLargestMap = 20000;  // cells per side
 
 /// Junctions by their place to the millimetre, with the place that the plan shows.
 class Junctions {
@@ -49,10 +49,12 @@ TruthMap empty_map(const World& world, double resolution_m) {
   const auto whole = [&](double v) { return std::floor(v / resolution_m); };
   map.origin = resolution_m * Eigen::Vector2d(whole(low.x() - kMargin_m), whole(low.y() - kMargin_m));
   const Eigen::Vector2d size = (high - map.origin).array() + kMargin_m;
-  if (size.maxCoeff() / resolution_m > kLargestMap) throw std::invalid_argument("the map has too many cells: choose a coarser resolution");
+  if (size.maxCoeff() / resolution_m > kLargestMap)
+    throw std::invalid_argument("the map has too many cells: choose a coarser resolution");
   map.width = static_cast<int>(std::ceil(size.x() / resolution_m));
   map.height = static_cast<int>(std::ceil(size.y() / resolution_m));
-  map.cells.assign(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height), TruthMap::Cell::kUnknown);
+  map.cells.assign(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height),
+                   TruthMap::Cell::kUnknown);
   return map;
 }
 
@@ -61,8 +63,10 @@ void draw_line(const Panel& panel, TruthMap& map) {
   const double length = (panel.b - panel.a).norm();
   const int steps = static_cast<int>(std::ceil(length / (0.1 * map.resolution_m)));
   for (int i = 0; i <= steps; ++i) {
-    const Eigen::Vector2d p = panel.a + (panel.b - panel.a) * (static_cast<double>(i) / std::max(steps, 1)) - map.origin;
-    const auto column = static_cast<std::size_t>(p.x() / map.resolution_m), row = static_cast<std::size_t>(p.y() / map.resolution_m);
+    const Eigen::Vector2d p =
+        panel.a + (panel.b - panel.a) * (static_cast<double>(i) / std::max(steps, 1)) - map.origin;
+    const auto column = static_cast<std::size_t>(p.x() / map.resolution_m),
+               row = static_cast<std::size_t>(p.y() / map.resolution_m);
     map.cells[row * static_cast<std::size_t>(map.width) + column] = TruthMap::Cell::kOccupied;
   }
 }
@@ -76,7 +80,8 @@ void flood(const Eigen::Vector2d& start, TruthMap& map) {
     const auto [column, row] = open.back();
     open.pop_back();
     if (column < 0 || row < 0 || column >= map.width || row >= map.height) continue;
-    auto& cell = map.cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(column)];
+    auto& cell = map.cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(map.width) +
+                           static_cast<std::size_t>(column)];
     if (cell != TruthMap::Cell::kUnknown) continue;
     cell = TruthMap::Cell::kFree;
     open.insert(open.end(), {{column + 1, row}, {column - 1, row}, {column, row + 1}, {column, row - 1}});

@@ -11,12 +11,12 @@
 
 namespace credo::sim {
 
-/// The floor plan as somebody drew it: the world's mapped panels and marks at `height_m`, every junction moved by its own
-/// error of World::plan_uncertainty_m. Panels that share a junction still share it.
+/// The floor plan as somebody drew it: the world's mapped panels and marks at `height_m`, every junction moved by its
+/// own error of World::plan_uncertainty_m. Panels that share a junction still share it.
 [[nodiscard]] geometry::FloorPlan draw_floor_plan(const World& world, double height_m, std::uint64_t seed);
 
-/// Occupied where a panel crosses a cell at one of the heights; free where the robot's start can be connected to without
-/// crossing one; unknown elsewhere.
+/// Occupied where a panel crosses a cell at one of the heights; free where the robot's start can be connected to
+/// without crossing one; unknown elsewhere.
 [[nodiscard]] TruthMap draw_truth_map(const World& world, const std::vector<double>& heights_m, double resolution_m);
 
 }  // namespace credo::sim

@@ -48,10 +48,11 @@ struct RangePreset {
   double field_rad, range_max_m, sigma_0_m, k_per_m, scan_time_s;
 };
 
-constexpr RangePreset kRangePresets[] = {
-    {"lds-neato", 360, 2.0 * pi, 6.0, 0.005, 0.0008, 0.1},   {"rplidar-a1", 360, 2.0 * pi, 12.0, 0.005, 0.0015, 0.1},
-    {"opensimple", 180, 2.0 * pi, 4.0, 0.005, 0.0045, 0.1},  {"lab-1999", 256, 2.0 * pi, 5.0, 0.010, 0.010, 1.0},
-    {"tof-lms", 361, pi, 20.0, 0.010, 0.0, 0.0133}};
+constexpr RangePreset kRangePresets[] = {{"lds-neato", 360, 2.0 * pi, 6.0, 0.005, 0.0008, 0.1},
+                                         {"rplidar-a1", 360, 2.0 * pi, 12.0, 0.005, 0.0015, 0.1},
+                                         {"opensimple", 180, 2.0 * pi, 4.0, 0.005, 0.0045, 0.1},
+                                         {"lab-1999", 256, 2.0 * pi, 5.0, 0.010, 0.010, 1.0},
+                                         {"tof-lms", 361, pi, 20.0, 0.010, 0.0, 0.0133}};
 
 }  // namespace
 
@@ -90,7 +91,7 @@ SonarSetup sonar_preset(const std::string& name) {
   if (name != "pioneer-16") unknown(name, {"pioneer-16"});
   SonarSetup setup;
   // ARIA's robot parameter files: x and y in mm, heading in degrees, of the front eight; the rear eight mirror them.
-  constexpr double kFront[8][3] = {{69, 136, 90},  {114, 119, 50},   {148, 78, 30},   {166, 27, 10},
+  constexpr double kFront[8][3] = {{69, 136, 90},   {114, 119, 50},  {148, 78, 30},    {166, 27, 10},
                                    {166, -27, -10}, {148, -78, -30}, {114, -119, -50}, {69, -136, -90}};
   constexpr double kRear[8][3] = {{-157, -136, -90}, {-203, -119, -130}, {-237, -78, -150}, {-255, -27, -170},
                                   {-255, 27, 170},   {-237, 78, 150},    {-203, 119, 130},  {-157, 136, 90}};

@@ -16,9 +16,9 @@ namespace credo::sim {
   return x ^ (x >> 31);
 }
 
-/// Random numbers that are a function of (seed, stream, index, how many were drawn): every reading has its own stream, so
-/// that neither threads nor a sensor more or less changes another reading. Same bytes on every platform with IEEE double
-/// and the same log, sqrt and cos.
+/// Random numbers that are a function of (seed, stream, index, how many were drawn): every reading has its own stream,
+/// so that neither threads nor a sensor more or less changes another reading. Same bytes on every platform with IEEE
+/// double and the same log, sqrt and cos.
 class Random {
  public:
   explicit constexpr Random(std::uint64_t seed, std::uint64_t stream = 0, std::uint64_t index = 0)
@@ -50,8 +50,8 @@ enum Stream : std::uint64_t {
   kPixelStream,
   kImageStream,
   kDustStream,
-  kScanStream = 100,   ///< + index of the range finder
-  kSonarStream = 200   ///< + index of the ring
+  kScanStream = 100,  ///< + index of the range finder
+  kSonarStream = 200  ///< + index of the ring
 };
 
 }  // namespace credo::sim

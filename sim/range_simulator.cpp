@@ -11,11 +11,11 @@
 namespace credo::sim {
 namespace {
 
-constexpr double kDiskNoise_px = 0.2;    // of the image of the spot in good light: fixes the base line times focal length
+constexpr double kDiskNoise_px = 0.2;  // of the image of the spot in good light: fixes the base line times focal length
 constexpr double kDiskQuantum_px = 0.125;
-constexpr double kOneImage_px = 3.0;     // nearer together, the images of two half spots are one
-constexpr double kDimming = 0.004;       // light at which the noise doubles
-constexpr double kPulse_m = 0.3;         // nearer together, two echoes of a pulse are one
+constexpr double kOneImage_px = 3.0;  // nearer together, the images of two half spots are one
+constexpr double kDimming = 0.004;    // light at which the noise doubles
+constexpr double kPulse_m = 0.3;      // nearer together, two echoes of a pulse are one
 constexpr double kBrokenShare = 0.004;
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -32,7 +32,8 @@ RangeSimulator::RangeSimulator(const World& world, const RangeFinderSetup& setup
   bias_per_m_ = random.normal(setup.bias_per_m);
 }
 
-sensors::RangeScan RangeSimulator::scan(sensors::Timestamp time, const std::function<geometry::Pose2(double)>& T_map_base,
+sensors::RangeScan RangeSimulator::scan(sensors::Timestamp time,
+                                        const std::function<geometry::Pose2(double)>& T_map_base,
                                         std::uint64_t index) const {
   const sensors::RangeFinder& finder = setup_->finder;
   Random random(seed_, kScanStream + static_cast<std::uint64_t>(sensor_), index);
@@ -52,7 +53,8 @@ bool RangeSimulator::is_lost(double light, const Material& material, Random& ran
   return random.chance(1.0 / (1.0 + std::exp(std::min(excess, 50.0))));
 }
 
-/// Triangulation: the range errs with the square of the range, more so in bad light, and is read in steps of the disparity.
+/// Triangulation: the range errs with the square of the range, more so in bad light, and is read in steps of the
+/// disparity.
 double RangeSimulator::measured(const Spot& spot, Random& random) const {
   const sensors::RangeNoise& noise = setup_->finder.noise;
   const double dimming = 1.0 + kDimming / std::max(spot.light, 1e-6);
@@ -88,7 +90,8 @@ float RangeSimulator::reading(const Eigen::Vector2d& origin, double angle, Rando
     }
     const Panel& panel = world_->panels[static_cast<std::size_t>(hit->panel)];
     material = &world_->materials[static_cast<std::size_t>(panel.material)];
-    halves[i] = {hit->range_m, 0.5 * material->infrared * hit->cos_incidence / std::max(hit->range_m * hit->range_m, 1e-4)};
+    halves[i] = {hit->range_m,
+                 0.5 * material->infrared * hit->cos_incidence / std::max(hit->range_m * hit->range_m, 1e-4)};
   }
   if (material == nullptr) return kInf;
   const double light = halves[0].light + halves[1].light;

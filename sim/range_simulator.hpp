@@ -13,17 +13,18 @@
 
 namespace credo::sim {
 
-/// A range finder by triangulation (k > 0: an image point at x = f b / r on a line of pixels) or time of flight (k = 0).
-/// What comes back is inf (too dark, too slanting, glass, beyond the range), what is broken or too near is nan.
+/// A range finder by triangulation (k > 0: an image point at x = f b / r on a line of pixels) or time of flight (k =
+/// 0). What comes back is inf (too dark, too slanting, glass, beyond the range), what is broken or too near is nan.
 class RangeSimulator {
  public:
   /// \param world, setup  are kept by reference
   /// \param sensor        index of the range finder
   RangeSimulator(const World& world, const RangeFinderSetup& setup, int sensor, std::uint64_t seed);
 
-  /// \param T_map_base  the true pose at a number of seconds from the scan's timestamp: beams are taken one after another
-  /// \param index       of the scan: selects its noise
-  [[nodiscard]] sensors::RangeScan scan(sensors::Timestamp time, const std::function<geometry::Pose2(double)>& T_map_base,
+  /// \param T_map_base  the true pose at a number of seconds from the scan's timestamp: beams are taken one after
+  /// another \param index       of the scan: selects its noise
+  [[nodiscard]] sensors::RangeScan scan(sensors::Timestamp time,
+                                        const std::function<geometry::Pose2(double)>& T_map_base,
                                         std::uint64_t index) const;
 
   /// One reading along a unit direction. [m]

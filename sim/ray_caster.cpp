@@ -41,12 +41,15 @@ void RayCaster::fill_cells() {
     const Panel& panel = world_->panels[static_cast<std::size_t>(index)];
     const Eigen::Vector2d e = panel.b - panel.a, least = panel.a.cwiseMin(panel.b), most = panel.a.cwiseMax(panel.b);
     const auto cell = [](double v) { return static_cast<int>(std::floor(v / kCell_m)); };
-    for (int j = std::max(0, cell(least.y() - low_.y() - 1e-6)); j <= std::min(height_ - 1, cell(most.y() - low_.y() + 1e-6)); ++j)
-      for (int i = std::max(0, cell(least.x() - low_.x() - 1e-6)); i <= std::min(width_ - 1, cell(most.x() - low_.x() + 1e-6)); ++i) {
+    for (int j = std::max(0, cell(least.y() - low_.y() - 1e-6));
+         j <= std::min(height_ - 1, cell(most.y() - low_.y() + 1e-6)); ++j)
+      for (int i = std::max(0, cell(least.x() - low_.x() - 1e-6));
+           i <= std::min(width_ - 1, cell(most.x() - low_.x() + 1e-6)); ++i) {
         const Eigen::Vector2d centre = low_ + kCell_m * Eigen::Vector2d(i + 0.5, j + 0.5);
         const double reach = 0.5 * kCell_m * (std::abs(e.x()) + std::abs(e.y())) + 1e-6;
         if (std::abs(cross(e, centre - panel.a)) <= reach)
-          cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i)].push_back(index);
+          cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i)].push_back(
+              index);
       }
   }
   cell_start_.push_back(0);
@@ -70,8 +73,8 @@ bool RayCaster::meets(int index, const Eigen::Vector2d& origin, const Eigen::Vec
 }
 
 /// Walks the grid cell by cell (Amanatides and Woo 1987).
-std::optional<RayHit> RayCaster::cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_range_m,
-                                      int ignore) const {
+std::optional<RayHit> RayCaster::cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction,
+                                      double max_range_m, int ignore) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const Eigen::Vector2d start = (origin - low_) / kCell_m;
   const int cells[2] = {width_, height_};

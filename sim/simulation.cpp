@@ -25,8 +25,8 @@ using sensors::Timestamp;
 constexpr Timestamp kStart = 1'600'000'000'000'000'000;  // ns
 constexpr double kSharpEnough_px = 1.0;                  // motion during the exposure between two rendered poses
 constexpr int kMostExposures = 4;
-constexpr double kNearestWall_m = 1.0;                   // for judging motion blur
-constexpr std::size_t kBatch = 16;                       // images rendered before they are delivered
+constexpr double kNearestWall_m = 1.0;  // for judging motion blur
+constexpr std::size_t kBatch = 16;      // images rendered before they are delivered
 
 /// What happens when; the order of the kinds is the order of delivery.
 struct Reading {
@@ -85,7 +85,8 @@ std::optional<geometry::PoseEstimate> told_start(const World& world, const geome
   geometry::PoseEstimate estimate;
   estimate.pose = {truth.x + random.normal(sigma[0]), truth.y + random.normal(sigma[1]),
                    geometry::wrap_angle(truth.theta + random.normal(sigma[2]))};
-  for (int i = 0; i < 3; ++i) estimate.covariance(i, i) = sigma[static_cast<std::size_t>(i)] * sigma[static_cast<std::size_t>(i)];
+  for (int i = 0; i < 3; ++i)
+    estimate.covariance(i, i) = sigma[static_cast<std::size_t>(i)] * sigma[static_cast<std::size_t>(i)];
   return estimate;
 }
 
@@ -139,7 +140,8 @@ struct Simulation::Parts {
   };
   [[nodiscard]] std::vector<geometry::Pose2> exposures(double seconds) const;
   [[nodiscard]] std::vector<Picture> render(std::span<const Reading> images, int threads, bool verticals) const;
-  void deliver(const Reading& reading, OdometrySimulator& odometry, geometry::Pose2& odometry_at, const Sink& sink) const;
+  void deliver(const Reading& reading, OdometrySimulator& odometry, geometry::Pose2& odometry_at,
+               const Sink& sink) const;
 };
 
 /// The poses during the exposure: one at rest, more the more the image moves.
@@ -148,7 +150,8 @@ std::vector<geometry::Pose2> Simulation::Parts::exposures(double seconds) const 
   const double half = 0.5 * camera.exposure_s;
   const geometry::Pose2 moved = way.pose_at(seconds - half).inverse() * way.pose_at(seconds + half);
   const double turn = std::abs(moved.theta) + std::hypot(moved.x, moved.y) / kNearestWall_m;
-  const int count = std::clamp(static_cast<int>(std::ceil(turn * camera.outer_radius_px / kSharpEnough_px)), 1, kMostExposures);
+  const int count =
+      std::clamp(static_cast<int>(std::ceil(turn * camera.outer_radius_px / kSharpEnough_px)), 1, kMostExposures);
   std::vector<geometry::Pose2> poses;
   for (int i = 0; i < count; ++i) poses.push_back(way.pose_at(seconds + camera.exposure_s * ((i + 0.5) / count - 0.5)));
   return poses;
@@ -205,7 +208,8 @@ void Simulation::Parts::deliver(const Reading& reading, OdometrySimulator& odome
   }
 }
 
-Simulation::Simulation(World world, std::uint64_t seed) : parts_(std::make_unique<const Parts>(std::move(world), seed)) {}
+Simulation::Simulation(World world, std::uint64_t seed)
+    : parts_(std::make_unique<const Parts>(std::move(world), seed)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
@@ -240,8 +244,8 @@ void Simulation::run(const Sink& sink, int threads) const {
   std::optional<Timestamp> told;
   for (const Reading& reading : parts.readings) {
     if (reading.kind == Reading::Kind::kImage && picturing && image % kBatch == 0)
-      batch = parts.render(std::span(images).subspan(image, std::min(kBatch, images.size() - image)), std::max(threads, 1),
-                           static_cast<bool>(sink.verticals));
+      batch = parts.render(std::span(images).subspan(image, std::min(kBatch, images.size() - image)),
+                           std::max(threads, 1), static_cast<bool>(sink.verticals));
     if (reading.kind == Reading::Kind::kEvent) parts.deliver(reading, odometry, odometry_at, sink);
     if (sink.truth && told != reading.time) sink.truth(reading.time, parts.way.pose_at(seconds_of(reading.time)));
     told = reading.time;

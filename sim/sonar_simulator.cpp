@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kRays = 21;
 constexpr int kReflections = 2;
-constexpr double kReturn_rad = 0.12;      // a detour comes back if its last wall is met this nearly head-on
-constexpr double kCornerStrength = 0.7;   // echo relative to a wall's
+constexpr double kReturn_rad = 0.12;     // a detour comes back if its last wall is met this nearly head-on
+constexpr double kCornerStrength = 0.7;  // echo relative to a wall's
 constexpr double kEdgeStrength = 0.2;
 constexpr double kAbsorption_per_m = 0.15;
-constexpr double kMargin = 4.0;           // a wall at the largest range is this much louder than the threshold
+constexpr double kMargin = 4.0;  // a wall at the largest range is this much louder than the threshold
 constexpr double kJoined_m = 1e-3;
 constexpr double kInf = std::numeric_limits<double>::infinity();
 

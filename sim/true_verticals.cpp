@@ -9,8 +9,8 @@
 namespace credo::sim {
 namespace {
 
-constexpr double kBeside_rad = 0.0017;   // how far to either side of an edge its contrast is taken
-constexpr double kOne_rad = 0.0026;      // edges closer than this are one
+constexpr double kBeside_rad = 0.0017;  // how far to either side of an edge its contrast is taken
+constexpr double kOne_rad = 0.0026;     // edges closer than this are one
 constexpr double kLeastShare = 0.05;
 
 /// A vertical line of the world.
@@ -63,7 +63,8 @@ std::vector<TrueVertical> OmniRenderer::true_verticals(const geometry::Pose2& T_
                                 static_cast<float>(radius * std::sin(azimuth)), static_cast<float>(radius * slope)};
     const SurfaceHit hit = view.trace(PanelView::bin_of(azimuth), origin, direction);
     range = hit.t * static_cast<float>(radius);
-    return std::min(255.0, world_->exposure_gain * fall_off(camera, radius) * view.radiance(hit, light_, origin, direction));
+    return std::min(255.0,
+                    world_->exposure_gain * fall_off(camera, radius) * view.radiance(hit, light_, origin, direction));
   };
   std::vector<TrueVertical> edges;
   for (const Line& line : vertical_lines(*world_)) {

@@ -28,12 +28,12 @@ struct Material {
   double albedo = 0.8;    ///< of visible light
   double emission = 0.0;  ///< radiance of its own: windows and lamps; 1 is white paper in good light
   Pattern pattern = Pattern::kPlain;
-  double period_m = 0.08;               ///< of the pattern
-  double contrast = 0.4;                ///< of the pattern: share of the albedo between its darkest and brightest part
-  bool skirting = false;                ///< darker up to World::skirting_m
-  double infrared = 0.8;                ///< reflectance met by a range finder
-  double miss_share = 0.0;              ///< of beams that are lost (glass)
-  double sonar_critical_rad = 0.24;     ///< incidence beyond which no echo comes back: smooth 0.24, rough 0.7
+  double period_m = 0.08;            ///< of the pattern
+  double contrast = 0.4;             ///< of the pattern: share of the albedo between its darkest and brightest part
+  bool skirting = false;             ///< darker up to World::skirting_m
+  double infrared = 0.8;             ///< reflectance met by a range finder
+  double miss_share = 0.0;           ///< of beams that are lost (glass)
+  double sonar_critical_rad = 0.24;  ///< incidence beyond which no echo comes back: smooth 0.24, rough 0.7
 };
 
 /// A vertical rectangle, opaque, seen from either side.
@@ -57,12 +57,12 @@ struct CeilingLamps {
 struct Drive {
   enum class Mode { kStopAndGo, kContinuous };
   Mode mode = Mode::kStopAndGo;
-  double step_m = 0.3;             ///< between stops
-  double pause_s = 0.8;            ///< length of a stop
+  double step_m = 0.3;   ///< between stops
+  double pause_s = 0.8;  ///< length of a stop
   double speed_mps = 0.4;
   double acceleration_mps2 = 0.5;
-  double turn_speed_radps = 0.7;   ///< when turning on the spot
-  double turn_radius_m = 0.5;      ///< of the curves when driving continuously
+  double turn_speed_radps = 0.7;  ///< when turning on the spot
+  double turn_radius_m = 0.5;     ///< of the curves when driving continuously
 };
 
 struct Waypoint {
@@ -71,21 +71,21 @@ struct Waypoint {
 };
 
 struct CameraSetup {
-  sensors::OmniCamera camera;   ///< as calibrated; the true one differs by its accuracy
-  double rate_hz = 0.0;         ///< 0: one image in the middle of each stop
-  double strut_width_px = 3.0;  ///< of the bars that hold the mirror
+  sensors::OmniCamera camera;      ///< as calibrated; the true one differs by its accuracy
+  double rate_hz = 0.0;            ///< 0: one image in the middle of each stop
+  double strut_width_px = 3.0;     ///< of the bars that hold the mirror
   std::vector<double> struts_rad;  ///< their directions in the image
 };
 
 struct RangeFinderSetup {
-  sensors::RangeFinder finder;     ///< as calibrated; the noise written is the law that the simulator follows
-  double rate_hz = 0.0;            ///< 0: one scan in the middle of each stop
-  double spot_m = 0.004;           ///< width of the light spot at the sensor
-  double spot_rad = 0.005;         ///< and its growth
-  double bias_per_m = 0.0;         ///< calibration error of triangulation: beta r^2, 1-sigma of beta [1/m]
-  double outlier_share = 0.005;    ///< readings that have nothing to do with the scene
-  double quantum_m = 0.001;        ///< step of a time-of-flight reading
-  double faintest = 0.012;         ///< infrared * cos(incidence) / r^2 at which half of the readings are lost
+  sensors::RangeFinder finder;   ///< as calibrated; the noise written is the law that the simulator follows
+  double rate_hz = 0.0;          ///< 0: one scan in the middle of each stop
+  double spot_m = 0.004;         ///< width of the light spot at the sensor
+  double spot_rad = 0.005;       ///< and its growth
+  double bias_per_m = 0.0;       ///< calibration error of triangulation: beta r^2, 1-sigma of beta [1/m]
+  double outlier_share = 0.005;  ///< readings that have nothing to do with the scene
+  double quantum_m = 0.001;      ///< step of a time-of-flight reading
+  double faintest = 0.012;       ///< infrared * cos(incidence) / r^2 at which half of the readings are lost
 };
 
 struct SonarSetup {
@@ -120,14 +120,14 @@ struct World {
   std::string description;
   double ceiling_m = 2.6;
   double skirting_m = 0.1;
-  double light_rad = 0.4;  ///< direction in the plane from which the walls are lit most
+  double light_rad = 0.4;        ///< direction in the plane from which the walls are lit most
   double exposure_gain = 230.0;  ///< grey levels of white paper in good light
   std::vector<Material> materials;
   std::vector<Panel> panels;
   std::vector<Eigen::Vector2d> marks;  ///< vertical lines without relief that the floor plan shows (door frames)
   CeilingLamps lamps;
   double floor_albedo = 0.45;
-  double floor_tile_m = 0.0;  ///< 0: no tiles
+  double floor_tile_m = 0.0;         ///< 0: no tiles
   double plan_uncertainty_m = 0.01;  ///< 1-sigma of each coordinate of each junction of the floor plan
 
   double robot_radius_m = 0.25;

@@ -58,7 +58,9 @@ void read_materials(YamlMap& building, World& world) {
     const std::string pattern = map.text("pattern", "plain");
     if (pattern != "plain" && pattern != "stripes" && pattern != "books")
       map.fail("pattern", "'pattern' must be plain, stripes or books");
-    material.pattern = pattern == "stripes" ? Pattern::kStripes : pattern == "books" ? Pattern::kBooks : Pattern::kPlain;
+    material.pattern = pattern == "stripes" ? Pattern::kStripes
+                       : pattern == "books" ? Pattern::kBooks
+                                            : Pattern::kPlain;
     material.period_m = positive(map, "period", material.period_m);
     material.contrast = not_negative(map, "contrast", material.contrast);
     material.skirting = map.flag("skirting", false);
@@ -87,8 +89,8 @@ void read_solids(YamlMap& building, Builder& builder) {
   }
   for (YamlMap& map : building.maps("pillars")) {
     placed(map, "at", [&] {
-      builder.add_pillar(map.point("at"), positive(map, "radius", 0.25), map.integer("sides", 16), map.number("turn", 0.0),
-                         map.text("material", "concrete"), map.flag("in_plan", true));
+      builder.add_pillar(map.point("at"), positive(map, "radius", 0.25), map.integer("sides", 16),
+                         map.number("turn", 0.0), map.text("material", "concrete"), map.flag("in_plan", true));
     });
     map.close();
   }
@@ -101,8 +103,8 @@ void read_boxes(YamlMap& building, const World& world, Builder& builder) {
     const std::vector<double> size = map.numbers("size", 2);
     if (size[0] <= 0.0 || size[1] <= 0.0) map.fail("size", "'size' must be two lengths larger than 0");
     placed(map, "at", [&] {
-      builder.add_box(map.point("at"), {size[0], size[1]}, map.number("turn", 0.0), z0, z1, map.text("material", "cabinet"),
-                      map.flag("in_plan", false));
+      builder.add_box(map.point("at"), {size[0], size[1]}, map.number("turn", 0.0), z0, z1,
+                      map.text("material", "cabinet"), map.flag("in_plan", false));
     });
     map.close();
   }
@@ -182,7 +184,8 @@ void read_building(YamlMap building, World& world) {
   read_solids(building, builder);
   read_doors(building, builder);
   read_overlays(building, "posters", {}, builder);
-  read_overlays(building, "windows", {.width_m = 1.3, .z0_m = 0.9, .z1_m = 2.1, .frame_m = 0.05, .marked = true, .material = "window"},
+  read_overlays(building, "windows",
+                {.width_m = 1.3, .z0_m = 0.9, .z1_m = 2.1, .frame_m = 0.05, .marked = true, .material = "window"},
                 builder);
   read_fixtures(building, "radiators", {.z0_m = 0.08, .z1_m = 0.9}, builder);
   read_fixtures(building, "shelves", {.width_m = 1.2, .depth_m = 0.3, .z1_m = 1.9, .material = "books"}, builder);
@@ -219,7 +222,8 @@ void read_path(YamlMap& top, World& world, const std::string& file) {
       map.close();
     }
   }
-  if (world.path.front().carried_here) top.fail("path", "the first waypoint is where the robot starts: it cannot be carried there");
+  if (world.path.front().carried_here)
+    top.fail("path", "the first waypoint is where the robot starts: it cannot be carried there");
 }
 
 CameraSetup read_camera(YamlMap map) {
@@ -332,7 +336,8 @@ YAML::Node load_file(const std::filesystem::path& file) {
   } catch (const YAML::BadFile&) {
     throw std::runtime_error(file.string() + ": cannot read this world file: check the path");
   } catch (const YAML::ParserException& error) {
-    throw std::runtime_error(file.string() + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML: " + error.msg);
+    throw std::runtime_error(file.string() + ":" + std::to_string(error.mark.line + 1) +
+                             ": not valid YAML: " + error.msg);
   }
 }
 

@@ -44,7 +44,8 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 
 YamlMap::YamlMap(YAML::Node node, std::string file, std::string what)
     : node_(std::move(node)), file_(std::move(file)), what_(std::move(what)) {
-  if (!node_.IsMap()) throw std::runtime_error(location(file_, node_.Mark()) + what_ + " must be a map of keys and values");
+  if (!node_.IsMap())
+    throw std::runtime_error(location(file_, node_.Mark()) + what_ + " must be a map of keys and values");
 }
 
 bool YamlMap::has(const std::string& key) { return child(key).IsDefined(); }

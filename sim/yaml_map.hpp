@@ -3,11 +3,11 @@
 
 #pragma once
 
+#include <yaml-cpp/yaml.h>
 #include <Eigen/Core>
 #include <stdexcept>
 #include <string>
 #include <vector>
-#include <yaml-cpp/yaml.h>
 
 namespace credo::sim {
 
@@ -19,8 +19,8 @@ class YamlMap {
   YamlMap(YAML::Node node, std::string file, std::string what);
 
   [[nodiscard]] bool has(const std::string& key);
-  [[nodiscard]] YAML::Node child(const std::string& key);  ///< an undefined node where it is absent
-  [[nodiscard]] YamlMap map(const std::string& key);       ///< \throws where it is absent
+  [[nodiscard]] YAML::Node child(const std::string& key);           ///< an undefined node where it is absent
+  [[nodiscard]] YamlMap map(const std::string& key);                ///< \throws where it is absent
   [[nodiscard]] std::vector<YamlMap> maps(const std::string& key);  ///< of a list of maps; empty where it is absent
 
   [[nodiscard]] double number(const std::string& key, double fallback);

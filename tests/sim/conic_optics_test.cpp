@@ -25,7 +25,8 @@ TEST(ConicOptics, TheRayThroughAProjectedPointPassesThroughThePoint) {
           const Eigen::Vector3d point(range * std::cos(azimuth), range * std::sin(azimuth), range * elevation);
           const Ray ray = optics.ray(optics.project(point));
           const double t = range / ray.direction.head<2>().norm();
-          EXPECT_LT((ray.origin + t * ray.direction - point).norm(), 1e-9) << azimuth << " " << range << " " << elevation;
+          EXPECT_LT((ray.origin + t * ray.direction - point).norm(), 1e-9)
+              << azimuth << " " << range << " " << elevation;
         }
   }
 }

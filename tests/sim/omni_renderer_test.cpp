@@ -24,7 +24,8 @@ cv::Mat ideal_image(const World& world, const Pose2& pose, std::uint64_t seed = 
 /// A dark panel that begins 3 m ahead, `left_m` to the left: a vertical edge in view of every row.
 World room_with_edge(double left_m, const char* material) {
   World world = ideal_room();
-  world.panels.push_back({{3.0, left_m}, {3.0, left_m + 1.5}, 0.0, world.ceiling_m, material_index(world, material), false});
+  world.panels.push_back(
+      {{3.0, left_m}, {3.0, left_m + 1.5}, 0.0, world.ceiling_m, material_index(world, material), false});
   return world;
 }
 
@@ -167,8 +168,9 @@ TEST(TrueVerticals, AreTheEdgesOfThePanelAndTheCornersOfTheRoom) {
       return std::abs(geometry::angle_difference(edge.azimuth_rad, std::atan2(p.y(), p.x()))) < 1e-9;
     });
   };
-  for (const Eigen::Vector2d& foot : {Eigen::Vector2d(3.0, 0.4), Eigen::Vector2d(3.0, 1.9), Eigen::Vector2d(-4.0, 4.0),
-                                      Eigen::Vector2d(-4.0, -4.0), Eigen::Vector2d(4.0, -4.0), Eigen::Vector2d(4.0, 4.0)})
+  for (const Eigen::Vector2d& foot :
+       {Eigen::Vector2d(3.0, 0.4), Eigen::Vector2d(3.0, 1.9), Eigen::Vector2d(-4.0, 4.0), Eigen::Vector2d(-4.0, -4.0),
+        Eigen::Vector2d(4.0, -4.0), Eigen::Vector2d(4.0, 4.0)})
     EXPECT_EQ(found(foot), 1) << foot.transpose();
   EXPECT_EQ(edges.size(), 6U);
   for (const TrueVertical& edge : edges) {
@@ -207,7 +209,8 @@ TEST(TrueVerticals, ArePlacesWhereTheImageChanges) {
   const sensors::OmniCamera& camera = world.camera->camera;
   const auto grey = [&](double azimuth, double radius) {
     const Eigen::Vector2d p = camera.center_px + radius * camera.image_direction(azimuth);
-    return std::min(255.0F, image.at<float>(static_cast<int>(std::lround(p.y())), static_cast<int>(std::lround(p.x()))));
+    return std::min(255.0F,
+                    image.at<float>(static_cast<int>(std::lround(p.y())), static_cast<int>(std::lround(p.x()))));
   };
   int strong = 0;
   for (const TrueVertical& edge : edges) {

@@ -133,7 +133,12 @@ TEST(RangeSimulator, BeamsOfATurningRobotAreTakenOneAfterAnother) {
   setup.finder.scan_time_s = 1.0;
   const RangeSimulator simulator(world, setup, 0, 1);
   constexpr double kTurn = 0.6;  // rad/s
-  const auto turning = simulator.scan(0, [](double s) { return geometry::Pose2{0.0, 0.0, kTurn * s}; }, 0);
+  const auto turning = simulator.scan(
+      0,
+      [](double s) {
+        return geometry::Pose2{0.0, 0.0, kTurn * s};
+      },
+      0);
   int compared = 0;
   for (int beam = 0; beam < setup.finder.count; ++beam) {
     const float range = turning.ranges_m[static_cast<std::size_t>(beam)];

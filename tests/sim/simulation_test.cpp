@@ -49,14 +49,20 @@ Recording record(const World& world, std::uint64_t seed, int threads) {
   Recording recording;
   Sink sink;
   sink.image = [&](const sensors::OmniImage& i) { recording.take("image", i.time, i.pixels.data, i.pixels.total()); };
-  sink.scan = [&](const sensors::RangeScan& s) { recording.take("scan", s.time, s.ranges_m.data(), s.ranges_m.size()); };
-  sink.sonar = [&](const sensors::SonarSweep& s) { recording.take("sonar", s.time, s.ranges_m.data(), s.ranges_m.size()); };
+  sink.scan = [&](const sensors::RangeScan& s) {
+    recording.take("scan", s.time, s.ranges_m.data(), s.ranges_m.size());
+  };
+  sink.sonar = [&](const sensors::SonarSweep& s) {
+    recording.take("sonar", s.time, s.ranges_m.data(), s.ranges_m.size());
+  };
   sink.odometry = [&](const sensors::OdometryReading& o) { recording.take("odometry", o.time, &o.T_odom_base.x, 3); };
   sink.truth = [&](Timestamp t, const geometry::Pose2& p) { recording.take("truth", t, &p.x, 3); };
   sink.verticals = [&](Timestamp t, std::span<const TrueVertical> v) {
     recording.take("verticals", t, reinterpret_cast<const double*>(v.data()), 3 * v.size());
   };
-  sink.event = [&](Timestamp t, std::string_view e) { recording.take(("event " + std::string(e)).c_str(), t, e.data(), e.size()); };
+  sink.event = [&](Timestamp t, std::string_view e) {
+    recording.take(("event " + std::string(e)).c_str(), t, e.data(), e.size());
+  };
   simulation.run(sink, threads);
   return recording;
 }
@@ -130,7 +136,9 @@ TEST(Simulation, BeingCarriedIsAnEventThatOdometryMisses) {
   double farthest = 0.0;
   Sink sink;
   sink.event = [&](Timestamp t, std::string_view e) { events.emplace_back(t, e); };
-  sink.odometry = [&](const sensors::OdometryReading& o) { farthest = std::max(farthest, std::hypot(o.T_odom_base.x, o.T_odom_base.y)); };
+  sink.odometry = [&](const sensors::OdometryReading& o) {
+    farthest = std::max(farthest, std::hypot(o.T_odom_base.x, o.T_odom_base.y));
+  };
   Simulation(world, 1).run(sink);
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].second, "kidnapped");
@@ -181,13 +189,14 @@ TEST(Simulation, TheTruthMapHasWallsRoomsAndTheOutside) {
   const Simulation simulation(short_demo(), 1);
   const TruthMap map = simulation.truth_map(0.05);
   const auto at = [&](double x, double y) {
-    return map.at(static_cast<int>((x - map.origin.x()) / map.resolution_m), static_cast<int>((y - map.origin.y()) / map.resolution_m));
+    return map.at(static_cast<int>((x - map.origin.x()) / map.resolution_m),
+                  static_cast<int>((y - map.origin.y()) / map.resolution_m));
   };
   EXPECT_EQ(at(3.0, 1.0), TruthMap::Cell::kFree);
   EXPECT_EQ(at(6.0, 4.0), TruthMap::Cell::kFree);       // through two doors
   EXPECT_EQ(at(4.0, 0.01), TruthMap::Cell::kOccupied);  // the corridor's wall
   EXPECT_EQ(at(3.0, -0.3), TruthMap::Cell::kUnknown);
-  EXPECT_EQ(at(3.6, 2.06), TruthMap::Cell::kUnknown);   // inside of a wall
+  EXPECT_EQ(at(3.6, 2.06), TruthMap::Cell::kUnknown);  // inside of a wall
   EXPECT_THROW((void)simulation.truth_map(0.0), std::invalid_argument);
 }
 

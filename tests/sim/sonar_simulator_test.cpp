@@ -29,7 +29,8 @@ TEST(SonarSimulator, ASmoothWallAnswersOnlyWhenMetNearlyHeadOn) {
   EXPECT_NEAR(echo(world, {0.0, 0.0, 0.0}), 1.5, 0.01);
   // The nearest point of the wall still lies in the beam: its distance is read, not that along the axis.
   EXPECT_NEAR(echo(world, {0.0, 0.0, 0.15}), 1.5, 0.02);
-  for (const double incidence : {0.6, 0.9, 1.2}) EXPECT_TRUE(std::isinf(echo(world, {0.0, 0.0, incidence}))) << incidence;
+  for (const double incidence : {0.6, 0.9, 1.2})
+    EXPECT_TRUE(std::isinf(echo(world, {0.0, 0.0, incidence}))) << incidence;
 }
 
 TEST(SonarSimulator, ARoughWallAnswersFromFurtherAside) {
@@ -55,7 +56,8 @@ TEST(SonarSimulator, AnEdgeAnswersWhenNearOnly) {
   const auto edge_at = [](double x) {
     World world = ideal_room();
     const int plain = material_index(world, "plain");
-    world.panels = {{{x, 0.0}, {x + 5.0, 5.0}, 0.0, 3.0, plain, true}, {{x, 0.0}, {x + 5.0, -5.0}, 0.0, 3.0, plain, true}};
+    world.panels = {{{x, 0.0}, {x + 5.0, 5.0}, 0.0, 3.0, plain, true},
+                    {{x, 0.0}, {x + 5.0, -5.0}, 0.0, 3.0, plain, true}};
     return world;
   };
   EXPECT_NEAR(echo(edge_at(0.8), {}), 0.8, 1e-9);
@@ -80,8 +82,10 @@ TEST(SonarSimulator, RangesCarryNoiseCrossTalkAndLimits) {
   constexpr std::size_t kAhead = 3;  // 10 degrees to the left
   const double true_range = 1.5 - setup.ring.T_base_transducer[kAhead].x;
   for (std::uint64_t i = 0; i < 3000; ++i) {
-    const auto sweep = simulator.sweep(0, [](double) { return geometry::Pose2{}; }, i);
-    for (const float range : sweep.ranges_m) EXPECT_TRUE(std::isinf(range) || (range >= 0.2F && range <= 3.0F)) << range;
+    const auto sweep = simulator.sweep(
+        0, [](double) { return geometry::Pose2{}; }, i);
+    for (const float range : sweep.ranges_m)
+      EXPECT_TRUE(std::isinf(range) || (range >= 0.2F && range <= 3.0F)) << range;
     const double range = sweep.ranges_m[kAhead];
     if (range < true_range - 0.2) {
       ++phantoms;
@@ -103,7 +107,12 @@ TEST(SonarSimulator, TransducersFireOneAfterAnother) {
   setup.ring.sigma_m = setup.relative_sigma = 0.0;
   const SonarSimulator simulator(world, setup, 0, 1);
   // Driving at the wall at an absurd speed makes the 10 ms between the two front transducers 10 cm.
-  const auto sweep = simulator.sweep(0, [](double s) { return geometry::Pose2{10.0 * s, 0.0, 0.0}; }, 0);
+  const auto sweep = simulator.sweep(
+      0,
+      [](double s) {
+        return geometry::Pose2{10.0 * s, 0.0, 0.0};
+      },
+      0);
   EXPECT_NEAR(sweep.ranges_m[3] - sweep.ranges_m[4], 0.1, 0.01);
 }
 

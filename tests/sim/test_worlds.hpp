@@ -27,12 +27,22 @@ inline World ideal_room() {
   Builder(world).add_walls({{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}, true, "plain", true);
   world.camera = camera_preset("conic-640");
   world.camera->struts_rad.clear();
-  world.nuisances = {.noise_grey = 0.0, .read_noise_grey = 0.0, .pixel_gain = 0.0, .blur_px = 0.0, .center_px = 0.0,
-                     .tilt_rad = 0.0, .mounting_m = 0.0, .mounting_rad = 0.0, .dust = 0, .glare = 0.0};
+  world.nuisances = {.noise_grey = 0.0,
+                     .read_noise_grey = 0.0,
+                     .pixel_gain = 0.0,
+                     .blur_px = 0.0,
+                     .center_px = 0.0,
+                     .tilt_rad = 0.0,
+                     .mounting_m = 0.0,
+                     .mounting_rad = 0.0,
+                     .dust = 0,
+                     .glare = 0.0};
   return world;
 }
 
 /// The file of a world that is shipped.
-inline std::string shipped(const std::string& name) { return std::string(CREDO_SOURCE_DIR) + "/sim/worlds/" + name + ".yaml"; }
+inline std::string shipped(const std::string& name) {
+  return std::string(CREDO_SOURCE_DIR) + "/sim/worlds/" + name + ".yaml";
+}
 
 }  // namespace credo::sim

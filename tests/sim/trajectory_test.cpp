@@ -24,7 +24,8 @@ TEST(Trajectory, StopsEveryStepAlongTheWay) {
   for (std::size_t i = 0; i + 1 < way.stops().size(); ++i) {
     const Pose2 a = way.pose_at(way.stops()[i]), b = way.pose_at(way.stops()[i + 1]);
     EXPECT_LE((a.translation() - b.translation()).norm(), 0.3 + 1e-9);
-    const Pose2 before = way.pose_at(way.stops()[i] - 0.3 * drive.pause_s), after = way.pose_at(way.stops()[i] + 0.3 * drive.pause_s);
+    const Pose2 before = way.pose_at(way.stops()[i] - 0.3 * drive.pause_s),
+                after = way.pose_at(way.stops()[i] + 0.3 * drive.pause_s);
     EXPECT_EQ(before, after) << "the robot moves at stop " << i;
   }
   EXPECT_NEAR((way.pose_at(way.stops()[3]).translation() - Eigen::Vector2d(0.9, 0.0)).norm(), 0.0, 1e-9);
@@ -65,7 +66,8 @@ TEST(Trajectory, NeedsAWay) {
 
 /// The drift over a metre, or a radian, is what the noise says, in however many steps it is read.
 TEST(OdometrySimulator, DriftsAsItsNoiseSaysAtAnyRate) {
-  const sensors::OdometryNoise noise{.translation_per_metre = 0.03, .rotation_per_metre = 0.02, .rotation_per_radian = 0.04};
+  const sensors::OdometryNoise noise{
+      .translation_per_metre = 0.03, .rotation_per_metre = 0.02, .rotation_per_radian = 0.04};
   for (const int steps : {1, 20}) {
     double along = 0.0, heading = 0.0, turned = 0.0;
     constexpr int kSeeds = 1500;

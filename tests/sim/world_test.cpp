@@ -156,10 +156,13 @@ TEST(WorldFile, ComplaintsNameFileLineAndWhatToDo) {
 }
 
 TEST(WorldFile, ThingsThatFindNoWallSayWhere) {
-  const std::string door = changed("    - outline", "    - outline: [[9, 9], [12, 9], [12, 12], [9, 12]]\n    - outline");
+  const std::string door =
+      changed("    - outline", "    - outline: [[9, 9], [12, 9], [12, 12], [9, 12]]\n    - outline");
   EXPECT_EQ(complaint(door), "");
-  EXPECT_THAT(complaint(changed("path:", "  doors: [{at: [2, 1.5]}]\npath:")), HasSubstr(":6: there is no wall within 0.5 m of [2, 1.5]"));
-  EXPECT_THAT(complaint(changed("path:", "  posters: [{at: [2, 0], material: papre}]\npath:")), HasSubstr("unknown material 'papre'"));
+  EXPECT_THAT(complaint(changed("path:", "  doors: [{at: [2, 1.5]}]\npath:")),
+              HasSubstr(":6: there is no wall within 0.5 m of [2, 1.5]"));
+  EXPECT_THAT(complaint(changed("path:", "  posters: [{at: [2, 0], material: papre}]\npath:")),
+              HasSubstr("unknown material 'papre'"));
 }
 
 TEST(WorldFile, AMissingFileSaysSo) {
