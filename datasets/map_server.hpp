@@ -40,9 +40,10 @@ struct OccupancyMap {
 [[nodiscard]] OccupancyMap read_map(const std::filesystem::path& yaml);
 
 /// Writes YAML and PGM (same stem) in trinary mode: occupied 0, free 254, unknown 205, free_thresh 0.196, so that unknown
-/// stays unknown in nav2 and in ROS 1. Values above 65 count as occupied, up to 19 as free. Both are written beside their
+/// stays unknown in nav2 and in ROS 1. Values from 65 on count as occupied, up to 20 as free. Both are written beside their
 /// place first, then renamed.
-/// \throws FormatError if they cannot be written; std::invalid_argument if `cells` is not width x height.
+/// \throws std::runtime_error if they cannot be written; std::invalid_argument if `cells` is not width x height, or the
+///         resolution or the origin is none.
 void write_map(const OccupancyMap& map, const std::filesystem::path& yaml);
 
 }  // namespace credo::datasets
