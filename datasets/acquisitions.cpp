@@ -182,8 +182,8 @@ sensors::Acquisition Acquisitions::read(std::size_t index) const {
   sensors::Acquisition acquisition = rows_between(index);
   const Timestamp within = sensors::from_seconds(params_.nearest_within_s);
   const bool by_camera = dataset_->header.acquisition_sensor == dataset_->camera_name;
-  const ImageFile* image = by_camera ? &dataset_->images[rows_[index]]
-                                     : nearest_row(dataset_->images, acquisition.time, within);
+  const ImageFile* image =
+      by_camera ? &dataset_->images[rows_[index]] : nearest_row(dataset_->images, acquisition.time, within);
   if (image != nullptr && !image->file.empty()) {
     const sensors::OmniCamera& camera = *dataset_->header.rig.camera;
     acquisition.image =

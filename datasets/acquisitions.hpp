@@ -16,8 +16,8 @@ struct AcquisitionParams {
   /// The row of another camera or range finder belongs to an acquisition if it is at most this far from it.
   double nearest_within_s = 0.1;
   /// An odometry row farther than this from both its neighbours was taken at a stop: no robot that drives reports so
-  /// rarely, but one that stops for each acquisition does. The path then rests around the row and moves in the middle half
-  /// of the interval, so that a scan taken at a stop is not bent by a motion that came later.
+  /// rarely, but one that stops for each acquisition does. The path then rests around the row and moves in the middle
+  /// half of the interval, so that a scan taken at a stop is not bent by a motion that came later.
   double stop_and_go_from_s = 1.0;
 };
 
@@ -25,8 +25,8 @@ struct AcquisitionParams {
 ///
 ///     for (const sensors::Acquisition& acquisition : Acquisitions(dataset)) ...
 ///
-/// Each sonar sweep, each scan and each odometry row is in exactly one acquisition's lists, or in trailing(). Rows of the
-/// acquisition sensor with the same time are one acquisition, that of the last of them.
+/// Each sonar sweep, each scan and each odometry row is in exactly one acquisition's lists, or in trailing(). Rows of
+/// the acquisition sensor with the same time are one acquisition, that of the last of them.
 class Acquisitions {
  public:
   /// \param dataset  must outlive this

@@ -3,24 +3,20 @@
 
 #include "datasets/carmen.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <string_view>
 #include <utility>
 
-#include "datasets/checked_yaml.hpp"
+#include "datasets/carmen_message.hpp"
 #include "datasets/format_error.hpp"
+#include "datasets/gzip_file.hpp"
 #include "datasets/sensor_yaml.hpp"
 #include "datasets/text_file.hpp"
-#include "datasets/trajectory.hpp"
 
 namespace credo::datasets {
 namespace {
@@ -30,104 +26,10 @@ using sensors::Timestamp;
 
 constexpr std::size_t kLargestLog_bytes = std::size_t{2} << 30;
 constexpr Timestamp kMadeUpPeriod = 100'000'000;  ///< between the rows of a log without usable times [ns]
-constexpr int kLargestCount = 100'000;
 constexpr double kRangeMin_m = 0.02;
 constexpr double kReachMargin_m = 0.01;  ///< a laser that says it reaches 81.92 m writes 81.91 for no return
 /// What lasers write where nothing came back; see CarmenParams.
 constexpr std::array kNoReturnMarks_m{50.0, 51.2};
-
-struct CloseGz {
-  void operator()(gzFile file) const { gzclose(file); }
-};
-
-/// The first `limit` bytes of a file, unpacked where it is gzipped.
-std::string read_unpacked(const fs::path& file, std::size_t limit) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) throw FormatError(file, 0, "there is no such file");
-  const std::unique_ptr<gzFile_s, CloseGz> in(gzopen(file.c_str(), "rb"));
-  if (!in) throw FormatError(file, 0, "cannot be read; check its permissions");
-  std::string content;
-  std::array<char, 1 << 16> buffer;
-  while (content.size() < limit) {
-    const int got = gzread(in.get(), buffer.data(), buffer.size());
-    int code = Z_OK;
-    (void)gzerror(in.get(), &code);
-    if (got < 0 || (code != Z_OK && code != Z_STREAM_END))
-      throw FormatError(file, 0, "is truncated or damaged; expected a whole log, plain or gzipped");
-    if (got == 0) return content;
-    content.append(buffer.data(), static_cast<std::size_t>(got));
-  }
-  return content;
-}
-
-/// One line of a log: a name and what follows.
-class Message {
- public:
-  Message(const fs::path& file, int line, std::string_view text) : file_(&file), line_(line) {
-    for (std::size_t begin = text.find_first_not_of(kSpace); begin != std::string_view::npos;) {
-      const std::size_t end = std::min(text.find_first_of(kSpace, begin), text.size());
-      words_.push_back(text.substr(begin, end - begin));
-      begin = text.find_first_not_of(kSpace, end);
-    }
-  }
-
-  [[nodiscard]] std::string_view name() const { return words_.empty() ? std::string_view() : words_.front(); }
-  [[nodiscard]] std::size_t left() const { return words_.size() - next_; }
-  [[nodiscard]] std::string_view word() {
-    if (left() == 0) fail("ends too early: the message is truncated");
-    return words_[next_++];
-  }
-  [[nodiscard]] double number() {
-    const std::string_view text = word();
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) fail("expected a number, found " + in_quotes(text));
-    return value;
-  }
-  [[nodiscard]] double finite() {
-    const double value = number();
-    if (!(std::abs(value) <= kLargestLength_m)) fail("expected a finite number, found " + std::to_string(value));
-    return value;
-  }
-  [[nodiscard]] int count() {
-    const double value = number();
-    if (!(value >= 1.0 && value <= kLargestCount) || value != std::floor(value))
-      fail("expected how many readings follow, 1 to " + std::to_string(kLargestCount) + ", found " +
-           std::to_string(value));
-    return static_cast<int>(value);
-  }
-  [[nodiscard]] geometry::Pose2 pose() {
-    const double x = finite(), y = finite(), theta = finite();
-    return {x, y, geometry::wrap_angle(theta)};
-  }
-  [[nodiscard]] int count_or_zero() {
-    if (left() != 0 && words_[next_] == "0") return ++next_, 0;
-    return count();
-  }
-  void skip(std::size_t words) {
-    for (std::size_t i = 0; i < words; ++i) (void)word();
-  }
-  /// The time at the end: "ipc_time host logger_time"; 0 where there is none.
-  [[nodiscard]] Timestamp time() {
-    if (left() == 0) return 0;
-    const std::string_view text = word();
-    try {
-      return parse_seconds(text);
-    } catch (const std::invalid_argument& error) {
-      fail(error.what());
-    }
-  }
-  [[noreturn]] void fail(const std::string& message) const {
-    throw FormatError(*file_, line_, std::string(name()) + ": " + message);
-  }
-
- private:
-  static constexpr std::string_view kSpace = " \t\r";
-  const fs::path* file_;
-  int line_;
-  std::vector<std::string_view> words_;
-  std::size_t next_ = 1;
-};
 
 /// A row of the log with the time that it carries and the one that it gets where the log's times are of no use.
 template <typename Value>
@@ -184,13 +86,20 @@ class Gatherer {
  private:
   void read_message(int line, std::string_view text) {
     const std::string_view name = text.substr(0, text.find_first_of(" \t"));
-    if (name == "FLASER" || name == "RLASER") read_old_laser(Message(file_, line, text));
-    else if (name.starts_with("ROBOTLASER")) read_new_laser(Message(file_, line, text), true);
-    else if (name.starts_with("RAWLASER")) read_new_laser(Message(file_, line, text), false);
-    else if (name == "ODOM") read_odometry(Message(file_, line, text));
-    else if (name == "SONAR") read_sonar(Message(file_, line, text));
-    else if (name == "PARAM") read_parameter(Message(file_, line, text));
-    else return;
+    if (name == "FLASER" || name == "RLASER")
+      read_old_laser(Message(file_, line, text));
+    else if (name.starts_with("ROBOTLASER"))
+      read_new_laser(Message(file_, line, text), true);
+    else if (name.starts_with("RAWLASER"))
+      read_new_laser(Message(file_, line, text), false);
+    else if (name == "ODOM")
+      read_odometry(Message(file_, line, text));
+    else if (name == "SONAR")
+      read_sonar(Message(file_, line, text));
+    else if (name == "PARAM")
+      read_parameter(Message(file_, line, text));
+    else
+      return;
     row_time_ += kMadeUpPeriod;
   }
 
@@ -233,8 +142,10 @@ std::vector<float> laser_ranges(Message& message, int count, double reach_m) {
   for (float& range : ranges) {
     const double value = message.number();
     const bool marked = std::find(kNoReturnMarks_m.begin(), kNoReturnMarks_m.end(), value) != kNoReturnMarks_m.end();
-    if (std::isnan(value) || value < kRangeMin_m) range = std::numeric_limits<float>::quiet_NaN();
-    else range = value >= reach_m || marked ? std::numeric_limits<float>::infinity() : static_cast<float>(value);
+    if (std::isnan(value) || value < kRangeMin_m)
+      range = std::numeric_limits<float>::quiet_NaN();
+    else
+      range = value >= reach_m || marked ? std::numeric_limits<float>::infinity() : static_cast<float>(value);
   }
   return ranges;
 }
@@ -341,10 +252,12 @@ std::optional<geometry::Pose2> mounting(const std::vector<Logged<LaserRow>>& row
 void add_laser(Laser& laser, CarmenLog& log) {
   const int index = static_cast<int>(log.scans.size());
   const auto T_base_laser = mounting(laser.rows);
-  if (T_base_laser) laser.finder.T_base_sensor = *T_base_laser;
+  if (T_base_laser)
+    laser.finder.T_base_sensor = *T_base_laser;
   else
-    log.remarks.push_back(laser.name + ": the poses of laser and robot are not fixed to each other: the laser's were "
-                                       "corrected, the robot's are odometry");
+    log.remarks.push_back(laser.name +
+                          ": the poses of laser and robot are not fixed to each other: the laser's were "
+                          "corrected, the robot's are odometry");
   const bool clockwise = laser.finder.angle_increment_rad < 0.0;
   log.rig.range_finders.push_back(counter_clockwise(laser.finder));
   log.laser_names.push_back(laser.name);
@@ -371,8 +284,10 @@ void add_sonar(Gatherer& gathered, const CarmenParams& params, CarmenLog& log) {
   auto& sweeps = log.sonar.emplace_back();
   for (auto& [time, made_up_time, ranges] : gathered.sonar) {
     for (float& range : ranges)
-      if (range < kRangeMin_m) range = std::numeric_limits<float>::quiet_NaN();
-      else if (range >= no_echo_from_m) range = std::numeric_limits<float>::infinity();
+      if (range < kRangeMin_m)
+        range = std::numeric_limits<float>::quiet_NaN();
+      else if (range >= no_echo_from_m)
+        range = std::numeric_limits<float>::infinity();
     sweeps.push_back({.time = time, .sensor = 0, .ranges_m = std::move(ranges)});
   }
   log.rig.sonar_rings.push_back(std::move(ring));
@@ -382,7 +297,7 @@ void add_sonar(Gatherer& gathered, const CarmenParams& params, CarmenLog& log) {
 
 bool is_carmen(const fs::path& file) {
   constexpr std::size_t kHead_bytes = 1 << 16;
-  static constexpr std::array<std::string_view, 9> kNames{"PARAM ", "SYNC ", "ODOM ", "FLASER ", "RLASER ",
+  static constexpr std::array<std::string_view, 9> kNames{"PARAM ",     "SYNC ",    "ODOM ",    "FLASER ", "RLASER ",
                                                           "ROBOTLASER", "RAWLASER", "TRUEPOS ", "NEFF "};
   try {
     const std::string content = read_unpacked(file, kHead_bytes);
@@ -404,7 +319,8 @@ CarmenLog read_carmen(const fs::path& file, const CarmenParams& params) {
   Gatherer gathered(file, params);
   gathered.read(content);
   if (gathered.lasers.empty() && gathered.sonar.empty())
-    throw FormatError(file, 0, "holds no scan; expected a CARMEN log with FLASER, ROBOTLASER1, RAWLASER1 or SONAR rows");
+    throw FormatError(file, 0,
+                      "holds no scan; expected a CARMEN log with FLASER, ROBOTLASER1, RAWLASER1 or SONAR rows");
   std::sort(gathered.lasers.begin(), gathered.lasers.end(),
             [](const Laser& a, const Laser& b) { return a.name < b.name; });
   CarmenLog log;

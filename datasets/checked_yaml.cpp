@@ -17,7 +17,6 @@
 namespace credo::datasets {
 namespace {
 
-
 std::string joined(const std::vector<std::string>& words) {
   std::string all;
   for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
@@ -53,8 +52,10 @@ std::optional<double> parse_number(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size()) return std::nullopt;
-  if (error == std::errc::result_out_of_range) value = HUGE_VAL;
-  else if (error != std::errc{}) return std::nullopt;
+  if (error == std::errc::result_out_of_range)
+    value = HUGE_VAL;
+  else if (error != std::errc{})
+    return std::nullopt;
   return negative ? -value : value;
 }
 
@@ -171,8 +172,7 @@ CheckedMap::CheckedMap(std::shared_ptr<const std::filesystem::path> file, const 
                        int line, std::initializer_list<std::string_view> known_keys)
     : file_(std::move(file)), name_(std::move(name)), line_(line) {
   const std::vector<std::string> known(known_keys.begin(), known_keys.end());
-  if (!node.IsMap())
-    fail((name_.empty() ? "" : name_ + ": ") + "expected keys and values (" + joined(known) + ")");
+  if (!node.IsMap()) fail((name_.empty() ? "" : name_ + ": ") + "expected keys and values (" + joined(known) + ")");
   for (const auto& entry : node) {
     const YAML::Node& key_node = entry.first;
     const YAML::Node& value = entry.second;
@@ -181,9 +181,9 @@ CheckedMap::CheckedMap(std::shared_ptr<const std::filesystem::path> file, const 
     const std::string& key = key_node.Scalar();
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       const auto nearest = nearest_word(key, known);
-      throw FormatError(*file_, key_line, "unknown key " + in_quotes(key) + (name_.empty() ? "" : " in " + name_) +
-                                              (nearest ? "; did you mean '" + *nearest + "'?"
-                                                       : "; known keys: " + joined(known)));
+      throw FormatError(*file_, key_line,
+                        "unknown key " + in_quotes(key) + (name_.empty() ? "" : " in " + name_) +
+                            (nearest ? "; did you mean '" + *nearest + "'?" : "; known keys: " + joined(known)));
     }
     if (const auto earlier = optional(key))
       throw FormatError(*file_, key_line,
@@ -209,7 +209,8 @@ CheckedValue load_yaml(const std::filesystem::path& file) {
   const std::string content = read_text_file(file);
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(content);
-    if (documents.empty() || documents.front().IsNull()) throw FormatError(file, 0, "is empty; expected keys and values");
+    if (documents.empty() || documents.front().IsNull())
+      throw FormatError(file, 0, "is empty; expected keys and values");
     if (documents.size() > 1) throw FormatError(file, 0, "holds more than one YAML document; expected one");
     return {std::make_shared<const std::filesystem::path>(file), documents.front(), "", 1};
   } catch (const YAML::Exception& error) {

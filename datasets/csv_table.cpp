@@ -73,8 +73,8 @@ bool CsvTable::next_row() {
 
 void CsvTable::fail_columns() const {
   const auto found = 1 + std::count(row_.begin(), row_.end(), ',');
-  fail("expected " + std::to_string(columns_.size()) + " columns" + (reason_.empty() ? "" : " (" + reason_ + ")") + ", found " +
-       std::to_string(found));
+  fail("expected " + std::to_string(columns_.size()) + " columns" + (reason_.empty() ? "" : " (" + reason_ + ")") +
+       ", found " + std::to_string(found));
 }
 
 std::string_view CsvTable::field() {

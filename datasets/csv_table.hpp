@@ -19,8 +19,8 @@ namespace credo::datasets {
 ///       const double x = table.finite(-1e6, 1e6);
 ///     }
 ///
-/// The first line is the header, '#' and the names of the columns, and must be as expected. Carriage returns, spaces around
-/// fields, empty lines and further lines that start with '#' do no harm.
+/// The first line is the header, '#' and the names of the columns, and must be as expected. Carriage returns, spaces
+/// around fields, empty lines and further lines that start with '#' do no harm.
 class CsvTable {
  public:
   /// \param reason  why there are that many columns, for the complaint where there are not; may be empty
@@ -54,8 +54,8 @@ class CsvTable {
   std::size_t position_ = 0;  ///< of the next line
   int line_ = 0;
   std::string_view row_;
-  std::size_t in_row_ = 0;    ///< position of the next field; npos: after the last
-  std::size_t column_ = 0;    ///< fields read
+  std::size_t in_row_ = 0;  ///< position of the next field; npos: after the last
+  std::size_t column_ = 0;  ///< fields read
   bool has_time_ = false;
   sensors::Timestamp last_time_ = 0;
   int last_time_line_ = 0;

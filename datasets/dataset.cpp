@@ -257,16 +257,17 @@ void settle_acquisition_sensor(const fs::path& folder, int line, Dataset& datase
   for (std::size_t i = 0; i < dataset.sonar.size(); ++i)
     if (!dataset.sonar[i].empty()) able.push_back(dataset.sonar_ring_names[i]);
   if (able.empty())
-    throw FormatError(folder, 0, "no camera, range finder or sonar has a row; expected at least one of camera0, range0 "
-                                 "and sonar0 with data");
+    throw FormatError(folder, 0,
+                      "no camera, range finder or sonar has a row; expected at least one of camera0, range0 "
+                      "and sonar0 with data");
   std::string& sensor = dataset.header.acquisition_sensor;
   if (sensor.empty()) sensor = able.front();
   if (std::find(able.begin(), able.end(), sensor) != able.end()) return;
   std::string names;
   for (const std::string& name : able) names += (names.empty() ? "" : ", ") + name;
-  throw FormatError(folder / "dataset.yaml", line,
-                    "acquisition_sensor: expected a sensor that is there and has rows (" + names + "), found '" +
-                        sensor + "'");
+  throw FormatError(
+      folder / "dataset.yaml", line,
+      "acquisition_sensor: expected a sensor that is there and has rows (" + names + "), found '" + sensor + "'");
 }
 
 }  // namespace

@@ -62,9 +62,9 @@ struct DatasetHeader {
 
 /// What was read with a remark: nothing is wrong enough to refuse the dataset, and nothing of it is hidden.
 struct SensorLog {
-  std::string sensor;                  ///< folder, e.g. "range0"
-  std::size_t rows = 0;                ///< usable
-  std::size_t below_range_min = 0;     ///< readings taken as nan
+  std::string sensor;               ///< folder, e.g. "range0"
+  std::size_t rows = 0;             ///< usable
+  std::size_t below_range_min = 0;  ///< readings taken as nan
   std::size_t above_range_max = 0;
   std::size_t negative = 0;
   std::size_t rows_without_value = 0;  ///< rows that are nan or empty throughout: the sensor is missing there
@@ -86,14 +86,14 @@ struct Dataset {
   std::optional<std::filesystem::path> truth_map;  ///< truth_map.yaml (map_server), where it is there
   // What a person should know about the reading of it.
   std::vector<SensorLog> log;
-  std::vector<std::string> remarks;  ///< one line each, e.g. "camera1 is not used: ..."
+  std::vector<std::string> remarks;             ///< one line each, e.g. "camera1 is not used: ..."
   std::string camera_name;                      ///< folder of the camera, e.g. "camera0"; empty without a camera
   std::vector<std::string> range_finder_names;  ///< folder of each range finder, e.g. "range0"
   std::vector<std::string> sonar_ring_names;
 
-  /// Reads and checks everything of a dataset but the pixels of its images, of which it checks that each is there, whole
-  /// and of the camera's size (PNG; of other formats only that it is there).
-  /// \throws FormatError for the first fault met, with file, line, what was found and what was expected.
+  /// Reads and checks everything of a dataset but the pixels of its images, of which it checks that each is there,
+  /// whole and of the camera's size (PNG; of other formats only that it is there). \throws FormatError for the first
+  /// fault met, with file, line, what was found and what was expected.
   [[nodiscard]] static Dataset open(const std::filesystem::path& folder);
 
   /// Whether `folder` looks like a dataset: it has a dataset.yaml.

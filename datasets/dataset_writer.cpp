@@ -105,8 +105,8 @@ std::string header_text(const DatasetHeader& header) {
   if (header.initial_pose) {
     const auto& [pose, covariance] = *header.initial_pose;
     text += "initial_pose: " + list_of(pose.x, pose.y, pose.theta) + "\n";
-    text += "initial_pose_sigma: " + list_of(std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1)),
-                                             std::sqrt(covariance(2, 2))) + "\n";
+    text += "initial_pose_sigma: " +
+            list_of(std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1)), std::sqrt(covariance(2, 2))) + "\n";
   }
   if (!header.acquisition_sensor.empty()) text += "acquisition_sensor: " + header.acquisition_sensor + "\n";
   return text;

@@ -11,25 +11,25 @@
 namespace credo::datasets {
 
 struct WriterParams {
-  bool overwrite = false;  ///< replace a dataset that is already there; anything else is never replaced
-  int png_compression = 1; ///< 0 (none) .. 9 (smallest, slow)
+  bool overwrite = false;   ///< replace a dataset that is already there; anything else is never replaced
+  int png_compression = 1;  ///< 0 (none) .. 9 (smallest, slow)
 };
 
-/// Writes a dataset row by row (docs/dataset-format.md). Everything goes into a temporary folder beside the target, which
-/// takes the target's name when finish() has written the last byte; without finish() the destructor removes it, so that
-/// nothing half-written is ever found. Ranges are written with 4 decimals [m], poses with 6, 9 for angles.
+/// Writes a dataset row by row (docs/dataset-format.md). Everything goes into a temporary folder beside the target,
+/// which takes the target's name when finish() has written the last byte; without finish() the destructor removes it,
+/// so that nothing half-written is ever found. Ranges are written with 4 decimals [m], poses with 6, 9 for angles.
 class DatasetWriter {
  public:
-  /// \param header  an empty `acquisition_sensor` is written as the default; a sensor's folder is made for each of the rig
-  /// \throws std::runtime_error if the target is there and may not be replaced, or the folder cannot be made
+  /// \param header  an empty `acquisition_sensor` is written as the default; a sensor's folder is made for each of the
+  /// rig \throws std::runtime_error if the target is there and may not be replaced, or the folder cannot be made
   /// \throws std::invalid_argument if the header would not be accepted when read (zero beams, an empty floor plan, ...)
   DatasetWriter(const std::filesystem::path& target, const DatasetHeader& header, const WriterParams& params = {});
   ~DatasetWriter();
   DatasetWriter(DatasetWriter&&) noexcept;
   DatasetWriter& operator=(DatasetWriter&&) noexcept;
 
-  // Times of one sensor must not decrease; std::invalid_argument where they do, where the number of readings or the size
-  // of an image does not fit the rig, or where a pose is not finite; std::runtime_error where the disk is full.
+  // Times of one sensor must not decrease; std::invalid_argument where they do, where the number of readings or the
+  // size of an image does not fit the rig, or where a pose is not finite; std::runtime_error where the disk is full.
   void add_image(sensors::Timestamp time, const cv::Mat& pixels);  ///< CV_8UC1 or CV_8UC3 (BGR); empty = no measurement
   void add_scan(const sensors::RangeScan& scan);
   void add_sonar(const sensors::SonarSweep& sweep);

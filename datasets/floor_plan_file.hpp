@@ -10,7 +10,8 @@
 namespace credo::datasets {
 
 /// Reads a floor_plan.yaml (docs/dataset-format.md).
-/// \throws FormatError with file and line: no walls, a wall without length, a value that is not finite, an unknown key, ...
+/// \throws FormatError with file and line: no walls, a wall without length, a value that is not finite, an unknown key,
+/// ...
 [[nodiscard]] geometry::FloorPlan read_floor_plan(const std::filesystem::path& file);
 
 /// Writes a floor_plan.yaml, with 6 decimals, by way of a temporary file beside it.

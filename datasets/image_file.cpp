@@ -34,8 +34,9 @@ std::string size_text(int width, int height) { return std::to_string(width) + " 
 
 void check_size(const std::filesystem::path& file, int width, int height, int expected_width, int expected_height) {
   if ((expected_width != 0 && width != expected_width) || (expected_height != 0 && height != expected_height))
-    throw FormatError(file, 0, "the image is " + size_text(width, height) + " px; expected " +
-                                   size_text(expected_width, expected_height) + " px, the camera's resolution");
+    throw FormatError(file, 0,
+                      "the image is " + size_text(width, height) + " px; expected " +
+                          size_text(expected_width, expected_height) + " px, the camera's resolution");
 }
 
 [[noreturn]] void fail_truncated(const std::filesystem::path& file) {
@@ -55,7 +56,8 @@ void check_png_chunks(const std::filesystem::path& file, std::string_view bytes)
   constexpr std::size_t kFrame = 12;  // length, name and checksum
   for (std::size_t at = kPngSignature.size(); at < bytes.size();) {
     const std::size_t left = bytes.size() - at;
-    const auto length = static_cast<std::size_t>(static_cast<std::uint32_t>(left < 4 ? 0 : big_endian(bytes.substr(at))));
+    const auto length =
+        static_cast<std::size_t>(static_cast<std::uint32_t>(left < 4 ? 0 : big_endian(bytes.substr(at))));
     if (left < kFrame || length > left - kFrame) fail_truncated(file);
     const auto* const data = reinterpret_cast<const Bytef*>(bytes.data() + at + 4);
     const auto checksum = static_cast<std::uint32_t>(crc32(crc32(0, nullptr, 0), data, static_cast<uInt>(length + 4)));
@@ -102,8 +104,9 @@ cv::Mat read_grey_image(const std::filesystem::path& file, int width_px, int hei
     case 1: return image;
     case 3: cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY); return grey;
     case 4: cv::cvtColor(image, grey, cv::COLOR_BGRA2GRAY); return grey;
-    default: throw FormatError(file, 0, "the image has " + std::to_string(image.channels()) +
-                                            " channels; expected grey or colour");
+    default:
+      throw FormatError(file, 0,
+                        "the image has " + std::to_string(image.channels()) + " channels; expected grey or colour");
   }
 }
 

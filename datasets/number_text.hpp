@@ -9,8 +9,8 @@
 
 namespace credo::datasets {
 
-/// Appends `value` with a fixed number of decimals; "nan", "inf" and "-inf" as such. The same bytes everywhere, whatever
-/// the locale.
+/// Appends `value` with a fixed number of decimals; "nan", "inf" and "-inf" as such. The same bytes everywhere,
+/// whatever the locale.
 inline void append_fixed(std::string& text, double value, int decimals) {
   char buffer[400];
   if (value == 0.0) value = 0.0;  // no "-0"

@@ -12,7 +12,7 @@
 namespace credo::datasets {
 namespace {
 
-constexpr int kLargestCount = 100'000;   ///< beams
+constexpr int kLargestCount = 100'000;  ///< beams
 constexpr int kLargestImage_px = 32'768;
 constexpr double kLongestTurn_s = 3600.0;
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
@@ -52,8 +52,10 @@ CommonKeys common_of(const CheckedMap& keys, double default_height_m, std::strin
   for (const char* key : {"exposure", "scan_time", "firing_times"}) {
     const auto value = keys.optional(key);
     if (!value || key == time_key) continue;
-    if (std::string_view(key) == "firing_times") (void)value->numbers(0, kDuration);
-    else (void)value->number(kDuration);
+    if (std::string_view(key) == "firing_times")
+      (void)value->numbers(0, kDuration);
+    else
+      (void)value->number(kDuration);
     remarks.push_back(file.string() + ":" + std::to_string(value->line()) + ": " + key +
                       " has no effect on this kind of sensor");
   }
@@ -98,8 +100,8 @@ void read_projection(const CheckedMap& keys, sensors::OmniCamera& camera) {
   if (const auto mirror = keys.optional("mirror")) {
     const CheckedMap cone = mirror->map({"half_angle", "apex_distance", "focal"});
     camera.mirror = sensors::ConicMirror{
-        .half_angle_rad = cone.required("half_angle")
-                              .number({.low = 0.0, .high = std::numbers::pi / 2.0, .low_open = true}),
+        .half_angle_rad =
+            cone.required("half_angle").number({.low = 0.0, .high = std::numbers::pi / 2.0, .low_open = true}),
         .apex_distance_m = cone.required("apex_distance").number(kPositiveLength),
         .focal_px = cone.required("focal").number(kPositivePixels)};
   }
@@ -126,24 +128,28 @@ void read_annulus(const CheckedMap& keys, sensors::OmniCamera& camera) {
   const double farthest = std::hypot(camera.width_px, camera.height_px);
   if (radii[0] >= radii[1] || radii[1] > farthest)
     radius.fail("radius: expected [inner, outer] with inner below outer and outer at most the diagonal of the image, " +
-                std::to_string(farthest) + " px, found [" + std::to_string(radii[0]) + ", " +
-                std::to_string(radii[1]) + "]");
+                std::to_string(farthest) + " px, found [" + std::to_string(radii[0]) + ", " + std::to_string(radii[1]) +
+                "]");
   if (const auto rim = keys.optional("rim_radius")) camera.rim_radius_px = rim->number(kPositivePixels);
-  if (const auto horizon = keys.optional("horizon_radius")) camera.horizon_radius_px = horizon->number(kPositivePixels);
+  if (const auto horizon = keys.optional("horizon_radius"))
+    camera.horizon_radius_px = horizon->number(kPositivePixels);
   else if (camera.mirror && horizon_radius(*camera.mirror) > 0.0)
     camera.horizon_radius_px = horizon_radius(*camera.mirror);
-  else if (camera.model == sensors::OmniCamera::Model::kConic) (void)keys.required("horizon_radius");
+  else if (camera.model == sensors::OmniCamera::Model::kConic)
+    (void)keys.required("horizon_radius");
 }
 
-void check_sensor_type(const CheckedMap& keys, std::string_view type) { (void)keys.required("sensor_type").one_of({type}); }
+void check_sensor_type(const CheckedMap& keys, std::string_view type) {
+  (void)keys.required("sensor_type").one_of({type});
+}
 
 }  // namespace
 
 sensors::OmniCamera read_camera(const std::filesystem::path& file, Remarks& remarks) {
   const CheckedMap keys = load_yaml(file).map(
-      {"sensor_type", "pose",   "rate_hz",        "height",     "accuracy", "exposure",     "scan_time",
-       "firing_times", "resolution", "model",     "center",     "radius",   "horizon_radius", "rim_radius",
-       "mask",        "azimuth_zero", "azimuth_sign", "mirror", "mei",      "scaramuzza"});
+      {"sensor_type",  "pose",         "rate_hz",      "height", "accuracy", "exposure",       "scan_time",
+       "firing_times", "resolution",   "model",        "center", "radius",   "horizon_radius", "rim_radius",
+       "mask",         "azimuth_zero", "azimuth_sign", "mirror", "mei",      "scaramuzza"});
   check_sensor_type(keys, "omnidirectional_camera");
   (void)keys.required("pose");
   sensors::OmniCamera camera;
@@ -169,9 +175,9 @@ sensors::OmniCamera read_camera(const std::filesystem::path& file, Remarks& rema
 }
 
 sensors::RangeFinder read_range_finder(const std::filesystem::path& file, Remarks& remarks) {
-  const CheckedMap keys = load_yaml(file).map({"sensor_type", "pose", "rate_hz", "height", "accuracy", "exposure",
-                                               "scan_time", "firing_times", "angle_min", "angle_increment", "count",
-                                               "range_min", "range_max", "noise"});
+  const CheckedMap keys =
+      load_yaml(file).map({"sensor_type", "pose", "rate_hz", "height", "accuracy", "exposure", "scan_time",
+                           "firing_times", "angle_min", "angle_increment", "count", "range_min", "range_max", "noise"});
   check_sensor_type(keys, "range_scanner");
   (void)keys.required("pose");
   sensors::RangeFinder finder;
@@ -237,17 +243,20 @@ sensors::SonarRing read_sonar_ring(const std::filesystem::path& file, Remarks& r
   if (ring.range_min_m >= ring.range_max_m)
     range_max.fail("range_max: expected more than range_min, " + std::to_string(ring.range_min_m) + ", found " +
                    std::to_string(ring.range_max_m));
-  if (const auto beam_width = keys.optional("beam_width")) ring.beam_width_rad = beam_width->number(kOpening);
-  else remarks.push_back(file.string() + ": says no beam_width; taken as " + std::to_string(ring.beam_width_rad));
+  if (const auto beam_width = keys.optional("beam_width"))
+    ring.beam_width_rad = beam_width->number(kOpening);
+  else
+    remarks.push_back(file.string() + ": says no beam_width; taken as " + std::to_string(ring.beam_width_rad));
   if (const auto sigma = keys.optional("sigma"))
     ring.sigma_m = sigma->number({.low = 0.0, .high = 1e3, .low_open = true});
-  else remarks.push_back(file.string() + ": says no sigma; taken as " + std::to_string(ring.sigma_m) + " m");
+  else
+    remarks.push_back(file.string() + ": says no sigma; taken as " + std::to_string(ring.sigma_m) + " m");
   return ring;
 }
 
 sensors::OdometryNoise read_odometry_noise(const std::filesystem::path& file, Remarks& remarks) {
-  const CheckedMap keys = load_yaml(file).map({"sensor_type", "pose", "rate_hz", "height", "accuracy", "exposure",
-                                               "scan_time", "firing_times", "noise"});
+  const CheckedMap keys = load_yaml(file).map(
+      {"sensor_type", "pose", "rate_hz", "height", "accuracy", "exposure", "scan_time", "firing_times", "noise"});
   check_sensor_type(keys, "odometry");
   if (common_of(keys, 0.0, "", file, remarks).T_base_sensor != geometry::Pose2{})
     remarks.push_back(file.string() + ": pose has no effect: the rows are poses of the robot base");

@@ -25,11 +25,12 @@ using Remarks = std::vector<std::string>;
 [[nodiscard]] sensors::SonarRing read_sonar_ring(const std::filesystem::path& file, Remarks& remarks);
 [[nodiscard]] sensors::OdometryNoise read_odometry_noise(const std::filesystem::path& file, Remarks& remarks);
 
-/// The same scanner with its beams counted counter-clockwise: the last beam becomes the first, and the scan runs through
-/// them backwards in time. Unchanged where they are already.
+/// The same scanner with its beams counted counter-clockwise: the last beam becomes the first, and the scan runs
+/// through them backwards in time. Unchanged where they are already.
 [[nodiscard]] sensors::RangeFinder counter_clockwise(const sensors::RangeFinder& range_finder);
 
-void write_sensor_yaml(std::ostream& out, const sensors::OmniCamera& camera);  ///< names mask.png, where there is a mask
+void write_sensor_yaml(std::ostream& out,
+                       const sensors::OmniCamera& camera);  ///< names mask.png, where there is a mask
 void write_sensor_yaml(std::ostream& out, const sensors::RangeFinder& range_finder);
 void write_sensor_yaml(std::ostream& out, const sensors::SonarRing& ring);
 void write_sensor_yaml(std::ostream& out, const sensors::OdometryNoise& noise);

@@ -42,8 +42,8 @@ void write_projection(std::ostream& out, const sensors::OmniCamera& camera) {
         << ", focal: " << text_of(camera.mirror->focal_px) << "}\n";
   if (camera.mei) {
     const sensors::MeiProjection& mei = *camera.mei;
-    out << "mei: {xi: " << text_of(mei.xi) << ", intrinsics: "
-        << list_of({mei.focal_px.x(), mei.focal_px.y(), mei.principal_px.x(), mei.principal_px.y()})
+    out << "mei: {xi: " << text_of(mei.xi)
+        << ", intrinsics: " << list_of({mei.focal_px.x(), mei.focal_px.y(), mei.principal_px.x(), mei.principal_px.y()})
         << ", distortion: " << list_of(std::span(mei.distortion.data(), 4)) << "}\n";
   }
   if (camera.scaramuzza)

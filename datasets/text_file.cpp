@@ -47,8 +47,8 @@ void write_file_whole(const std::filesystem::path& file, std::string_view conten
   if (!out || error) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error(file.string() + ": cannot be written; check that its folder exists, may be written to and " +
-                             "has space left");
+    throw std::runtime_error(
+        file.string() + ": cannot be written; check that its folder exists, may be written to and " + "has space left");
   }
 }
 
@@ -61,7 +61,8 @@ std::string_view trimmed(std::string_view text) {
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 60;
   std::string quote(text.substr(0, kLongest));
-  std::replace_if(quote.begin(), quote.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }, '?');
+  std::replace_if(
+      quote.begin(), quote.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }, '?');
   return "'" + quote + (text.size() > kLongest ? "..." : "") + "'";
 }
 

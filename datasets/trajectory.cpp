@@ -62,9 +62,9 @@ double number(const fs::path& file, const Row& row, std::size_t column) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !(std::abs(value) <= kLargestLength_m))
-    throw FormatError(file, row.line, "column " + std::to_string(column + 1) +
-                                          ": expected a finite number (within 1e6), found " +
-                                          in_quotes(row.fields[column]));
+    throw FormatError(file, row.line,
+                      "column " + std::to_string(column + 1) + ": expected a finite number (within 1e6), found " +
+                          in_quotes(row.fields[column]));
   return value;
 }
 
@@ -120,8 +120,10 @@ std::vector<TimedPose> kitti_poses(const fs::path& file, const std::vector<Row>&
   std::vector<TimedPose> poses;
   for (const std::array<double, 12>& m : transforms) {
     const Timestamp time = static_cast<Timestamp>(poses.size()) * kNanoseconds;
-    if (upright) poses.push_back({time, {m[3], m[7], std::atan2(m[4], m[0])}});
-    else poses.push_back({time, {m[11], -m[3], std::atan2(-m[2], m[10])}});
+    if (upright)
+      poses.push_back({time, {m[3], m[7], std::atan2(m[4], m[0])}});
+    else
+      poses.push_back({time, {m[11], -m[3], std::atan2(-m[2], m[10])}});
   }
   return poses;
 }
@@ -135,16 +137,19 @@ TrajectoryFormat format_of(const fs::path& file, const Row& row, std::string_vie
   const bool whole = row.fields.front().find_first_of(".eE") == std::string_view::npos;
   if ((columns == 8 || columns == 17) && whole && (nanoseconds_named || columns == 17)) return TrajectoryFormat::kEuroc;
   if (columns == 8) return TrajectoryFormat::kTum;
-  throw FormatError(file, row.line,
-                    "no known trajectory: expected 8 columns (TUM: timestamp tx ty tz qx qy qz qw), 12 (KITTI), 8 or 17 "
-                    "behind a header in nanoseconds (EuRoC), or the header '#timestamp [ns],x [m],y [m],theta [rad]'; "
-                    "found " + std::to_string(columns) + " columns");
+  throw FormatError(
+      file, row.line,
+      "no known trajectory: expected 8 columns (TUM: timestamp tx ty tz qx qy qz qw), 12 (KITTI), 8 or 17 "
+      "behind a header in nanoseconds (EuRoC), or the header '#timestamp [ns],x [m],y [m],theta [rad]'; "
+      "found " +
+          std::to_string(columns) + " columns");
 }
 
 void check_columns(const fs::path& file, const Row& first, const Row& row) {
   if (row.fields.size() != first.fields.size())
-    throw FormatError(file, row.line, "expected " + std::to_string(first.fields.size()) + " columns, as in line " +
-                                          std::to_string(first.line) + ", found " + std::to_string(row.fields.size()));
+    throw FormatError(file, row.line,
+                      "expected " + std::to_string(first.fields.size()) + " columns, as in line " +
+                          std::to_string(first.line) + ", found " + std::to_string(row.fields.size()));
 }
 
 Trajectory read_file(const fs::path& file) {
@@ -165,9 +170,9 @@ Trajectory read_file(const fs::path& file) {
                            : trajectory.format == TrajectoryFormat::kEuroc ? euroc_pose(file, row)
                                                                            : table_pose(file, row);
     if (!trajectory.poses.empty() && pose.time < trajectory.poses.back().time)
-      throw FormatError(file, row.line, "the time " + to_seconds(pose.time) + " s comes after " +
-                                            to_seconds(trajectory.poses.back().time) +
-                                            " s: expected rows in order of time");
+      throw FormatError(file, row.line,
+                        "the time " + to_seconds(pose.time) + " s comes after " +
+                            to_seconds(trajectory.poses.back().time) + " s: expected rows in order of time");
     trajectory.poses.push_back(pose);
   }
   return trajectory;
@@ -193,25 +198,23 @@ Trajectory read_trajectory(const fs::path& path) {
   const bool is_dataset = Dataset::is_dataset(path);
   const fs::path file = is_dataset ? path / "groundtruth0" / "data.csv" : path / "trajectory.tum";
   if (!fs::exists(file, error))
-    throw FormatError(path, 0, is_dataset ? "this dataset holds no groundtruth0/data.csv; there is no truth to read"
-                                          : "holds neither a dataset.yaml nor a trajectory.tum; expected a trajectory");
+    throw FormatError(path, 0,
+                      is_dataset ? "this dataset holds no groundtruth0/data.csv; there is no truth to read"
+                                 : "holds neither a dataset.yaml nor a trajectory.tum; expected a trajectory");
   Trajectory trajectory = read_file(file);
   trajectory.format = is_dataset ? TrajectoryFormat::kDataset : TrajectoryFormat::kResults;
   return trajectory;
 }
 
 std::string to_seconds(Timestamp time) {
-  const std::uint64_t magnitude =
-      time < 0 ? ~static_cast<std::uint64_t>(time) + 1 : static_cast<std::uint64_t>(time);
+  const std::uint64_t magnitude = time < 0 ? ~static_cast<std::uint64_t>(time) + 1 : static_cast<std::uint64_t>(time);
   const std::string fraction = std::to_string(magnitude % kNanoseconds);
   return (time < 0 ? "-" : "") + std::to_string(magnitude / kNanoseconds) + "." +
          std::string(9 - fraction.size(), '0') + fraction;
 }
 
 Timestamp parse_seconds(std::string_view text) {
-  const auto fail = [text] {
-    return std::invalid_argument("expected a time in seconds, found " + in_quotes(text));
-  };
+  const auto fail = [text] { return std::invalid_argument("expected a time in seconds, found " + in_quotes(text)); };
   const bool negative = text.starts_with('-');
   std::string_view digits = text.substr(negative || text.starts_with('+') ? 1 : 0);
   if (digits.find_first_of("eE") != std::string_view::npos) {
@@ -224,8 +227,8 @@ Timestamp parse_seconds(std::string_view text) {
   const std::string_view whole = digits.substr(0, point);
   const std::string_view fraction = digits.substr(std::min(point + 1, digits.size()));
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  if (whole.size() + fraction.size() == 0 || whole.size() > 10 ||
-      !std::all_of(whole.begin(), whole.end(), is_digit) || !std::all_of(fraction.begin(), fraction.end(), is_digit))
+  if (whole.size() + fraction.size() == 0 || whole.size() > 10 || !std::all_of(whole.begin(), whole.end(), is_digit) ||
+      !std::all_of(fraction.begin(), fraction.end(), is_digit))
     throw fail();
   Timestamp time = 0;
   for (const char c : whole) time = 10 * time + (c - '0');

@@ -25,7 +25,7 @@ enum class TrajectoryFormat {
 
 struct Trajectory {
   TrajectoryFormat format = TrajectoryFormat::kTum;
-  bool has_times = true;  ///< false: KITTI, where row i stands at i seconds
+  bool has_times = true;         ///< false: KITTI, where row i stands at i seconds
   std::vector<TimedPose> poses;  ///< by time, projected to the plane z = 0; theta is the heading of the x axis
 };
 
@@ -33,8 +33,8 @@ struct Trajectory {
 
 /// Reads a trajectory; the format is told by the content. KITTI rows are in the camera's frame (x right, y down, z
 /// forward), of which the plane is (z, -x), unless each of them is a motion in the plane z = 0, which is then kept.
-/// \throws FormatError, with file and line: an unknown format, a bad row, a time that decreases, a value that is not finite,
-/// a quaternion of no length, or no pose at all.
+/// \throws FormatError, with file and line: an unknown format, a bad row, a time that decreases, a value that is not
+/// finite, a quaternion of no length, or no pose at all.
 [[nodiscard]] Trajectory read_trajectory(const std::filesystem::path& path);
 
 /// Writes poses as TUM rows: seconds with 9 decimals from the integer nanoseconds, nothing lost; qx = qy = 0.

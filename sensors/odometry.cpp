@@ -37,8 +37,8 @@ geometry::PoseEstimate step(const OdometryNoise& noise, const geometry::Pose2& m
                       noise.rotation_per_radian * noise.rotation_per_radian * turn);
 }
 
-/// Variances of the pose that a path gives between its rows, for a steady robot, when the robot need not be steady: at a
-/// share s of an interval dt it is off by acceleration * dt^2 / 2 * s (1 - s), and by no more than the motion allows.
+/// Variances of the pose that a path gives between its rows, for a steady robot, when the robot need not be steady: at
+/// a share s of an interval dt it is off by acceleration * dt^2 / 2 * s (1 - s), and by no more than the motion allows.
 Eigen::Vector2d interpolation_variance(const MotionPath& path, Timestamp time) {
   const auto& rows = path.rows();
   if (rows.size() < 2) return Eigen::Vector2d::Zero();

@@ -16,8 +16,8 @@ namespace credo::sensors {
 
 /// A cone on the optical axis in front of a pinhole camera.
 struct ConicMirror {
-  double half_angle_rad = 0.0;    ///< between the axis and the cone's surface
-  double apex_distance_m = 0.0;   ///< from the pinhole to the apex
+  double half_angle_rad = 0.0;   ///< between the axis and the cone's surface
+  double apex_distance_m = 0.0;  ///< from the pinhole to the apex
   double focal_px = 0.0;
 
   friend bool operator==(const ConicMirror&, const ConicMirror&) = default;
@@ -35,8 +35,8 @@ struct MeiProjection {
 
 /// The polynomial model (Scaramuzza et al., ICVS 2006).
 struct ScaramuzzaProjection {
-  std::vector<double> polynomial;          ///< by growing power, pixel to ray
-  std::vector<double> inverse_polynomial;  ///< by growing power, ray to pixel; may be empty
+  std::vector<double> polynomial;            ///< by growing power, pixel to ray
+  std::vector<double> inverse_polynomial;    ///< by growing power, ray to pixel; may be empty
   Eigen::Vector3d affine = {1.0, 0.0, 0.0};  ///< c, d, e
 
   friend bool operator==(const ScaramuzzaProjection&, const ScaramuzzaProjection&) = default;
@@ -54,9 +54,9 @@ struct OmniCamera {
   Eigen::Vector2d center_px = Eigen::Vector2d::Zero();  ///< u, v; u right, v down; centre of the first pixel = (0, 0)
   double inner_radius_px = 0.0;                         ///< usable annulus
   double outer_radius_px = 0.0;
-  double horizon_radius_px = 0.0;                       ///< where the elevation is zero
-  std::optional<double> rim_radius_px;                  ///< the mirror's visible rim
-  cv::Mat mask;                                         ///< CV_8UC1, 0 = never use; empty = all usable
+  double horizon_radius_px = 0.0;       ///< where the elevation is zero
+  std::optional<double> rim_radius_px;  ///< the mirror's visible rim
+  cv::Mat mask;                         ///< CV_8UC1, 0 = never use; empty = all usable
   double azimuth_zero_rad = 0.0;
   int azimuth_sign = -1;
   std::optional<ConicMirror> mirror;

@@ -40,7 +40,7 @@ TEST_F(SmallDatasetRead, GathersWhatBelongsToAnImage) {
   EXPECT_EQ(second.scan->sensor, 0);
   EXPECT_EQ(second.odometry.size(), 10U);
   EXPECT_EQ(second.odometry.front().time, kStart + 300 * kMillisecond);
-  EXPECT_EQ(second.sonar.size(), 2U);  // at 450 and 650; the one at 250 belongs to the first acquisition
+  EXPECT_EQ(second.sonar.size(), 2U);       // at 450 and 650; the one at 250 belongs to the first acquisition
   EXPECT_EQ(second.scans.size(), 5U + 2U);  // 303 .. 703 of range0; 400 and 600 of range1
   for (std::size_t i = 1; i < second.scans.size(); ++i) EXPECT_GE(second.scans[i].time, second.scans[i - 1].time);
   ASSERT_TRUE(second.motion);
@@ -187,7 +187,8 @@ TEST(Acquisitions, DrivingOdometryCarriesTheScan) {
 
 TEST(Acquisitions, TurnOnTheSpotAndBackCounts) {
   Dataset dataset = driven_by_scans({0, kSecond});
-  for (int i = 0; i <= 10; ++i) dataset.odometry.push_back({i * kSecond / 10, {0.0, 0.0, i <= 5 ? 0.2 * i : 0.2 * (10 - i)}});
+  for (int i = 0; i <= 10; ++i)
+    dataset.odometry.push_back({i * kSecond / 10, {0.0, 0.0, i <= 5 ? 0.2 * i : 0.2 * (10 - i)}});
   const auto motion = *Acquisitions(dataset).read(1).motion;
   EXPECT_NEAR(motion.pose.theta, 0.0, 1e-12);
   EXPECT_GT(std::sqrt(motion.covariance(2, 2)), 0.03 * std::sqrt(1.9));  // two radians were turned

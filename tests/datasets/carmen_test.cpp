@@ -58,8 +58,8 @@ TEST(Carmen, ReadsNewLaserMessagesOldAndNew) {
   const TemporaryFolder folder;
   const std::string head = "ROBOTLASER1 0 -1.57 3.14 1.57 20.0 0.02 0 3 1 20 2 ";
   const std::string poses = "5 6 0.1 4.9 6 0.1 0.5 0.1 ";
-  const auto file = folder.write("a.log", head + "2 7 8 " + poses + "0.6 0.4 100000 33.5 host 1.5\n" +
-                                              head + poses + "0.6 0.4 34.5 host 2.5\n" +
+  const auto file = folder.write("a.log", head + "2 7 8 " + poses + "0.6 0.4 100000 33.5 host 1.5\n" + head + poses +
+                                              "0.6 0.4 34.5 host 2.5\n" +
                                               "RAWLASER2 0 1.57 3.14 -1.57 20.0 0 0 3 1 2 3 0 35 host 35\n");
   const CarmenLog log = read_carmen(file);
   ASSERT_EQ(log.scans.size(), 2U);
@@ -76,8 +76,9 @@ TEST(Carmen, ReadsNewLaserMessagesOldAndNew) {
 
 TEST(Carmen, ReadsSonar) {
   const TemporaryFolder folder;
-  const auto file = folder.write("a.log", "SONAR 0.35 2 1.25 5.0 0.1 0.2 1.5 0.1 -0.2 -1.5 7.5 host 7.5\n"
-                                          "SONAR 0.35 2 5.0 2.5 0.1 0.2 1.5 0.1 -0.2 -1.5 8.5 host 8.5\n");
+  const auto file = folder.write("a.log",
+                                 "SONAR 0.35 2 1.25 5.0 0.1 0.2 1.5 0.1 -0.2 -1.5 7.5 host 7.5\n"
+                                 "SONAR 0.35 2 5.0 2.5 0.1 0.2 1.5 0.1 -0.2 -1.5 8.5 host 8.5\n");
   const CarmenLog log = read_carmen(file);
   ASSERT_EQ(log.sonar.size(), 1U);
   EXPECT_EQ(log.sonar[0][0].ranges_m[0], 1.25F);
@@ -98,8 +99,9 @@ TEST(Carmen, TimesThatTellNothingApartAreMadeUp) {
 
 TEST(Carmen, RowsOutOfOrderAreSortedWithTheirPoses) {
   const TemporaryFolder folder;
-  const CarmenLog log = read_carmen(folder.write("a.log", "FLASER 1 1 2 0 0 2 0 0 20 host 20\n"
-                                                          "FLASER 1 1 1 0 0 1 0 0 10 host 10\n"));
+  const CarmenLog log = read_carmen(folder.write("a.log",
+                                                 "FLASER 1 1 2 0 0 2 0 0 20 host 20\n"
+                                                 "FLASER 1 1 1 0 0 1 0 0 10 host 10\n"));
   EXPECT_EQ(log.laser_poses[0][0], (TimedPose{10'000'000'000, {1.0, 0.0, 0.0}}));
   EXPECT_EQ(log.scans[0][0].time, 10'000'000'000);
   EXPECT_THAT(log.remarks, testing::Contains(HasSubstr("were sorted")));
@@ -117,7 +119,8 @@ TEST(Carmen, NamesTheLineOfAMistake) {
   EXPECT_THAT(said("FLASER 0 0 0 0 0 0 0 1 h 1\n"), HasSubstr("a.log:1: FLASER: expected how many readings"));
   EXPECT_THAT(said("FLASER 1 one 0 0 0 0 0 0 1 h 1\n"), HasSubstr("'one'"));
   EXPECT_THAT(said("FLASER 1 1 nan 0 0 0 0 0 1 h 1\n"), HasSubstr("finite"));
-  EXPECT_THAT(said("FLASER 1 1 0 0 0 0 0 0 1 h 1\nFLASER 2 1 1 0 0 0 0 0 0 2 h 2\n"), HasSubstr("a.log:2: FLASER: expected 1"));
+  EXPECT_THAT(said("FLASER 1 1 0 0 0 0 0 0 1 h 1\nFLASER 2 1 1 0 0 0 0 0 0 2 h 2\n"),
+              HasSubstr("a.log:2: FLASER: expected 1"));
   EXPECT_FALSE(is_carmen(folder.write("b", "1 0 0 0 0 0 0 1\n")));
   EXPECT_FALSE(is_carmen(folder / "nowhere"));
 }
@@ -149,7 +152,8 @@ TEST(Carmen, ReadsPublishedLogs) {
   EXPECT_TRUE(intel.times_usable);
   std::size_t no_return = 0, beyond = 0;
   for (const auto& scan : intel.scans[0])
-    for (const float range : scan.ranges_m) no_return += std::isinf(range) ? 1 : 0, beyond += range > 60.0F && !std::isinf(range);
+    for (const float range : scan.ranges_m)
+      no_return += std::isinf(range) ? 1 : 0, beyond += range > 60.0F && !std::isinf(range);
   EXPECT_EQ(no_return, 4172U);
   EXPECT_EQ(beyond, 0U);
   EXPECT_EQ(read_carmen(real / "intel_lab/DERIVED_intel_raw_odometry.clf.gz").scans[0].size(), 910U);

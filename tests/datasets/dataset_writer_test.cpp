@@ -50,7 +50,8 @@ TEST(DatasetWriter, GivesTheSameBytesAgain) {
 TEST(DatasetWriter, RefusesATargetThatIsThere) {
   const TemporaryFolder folder;
   write_small_dataset(folder / "set");
-  EXPECT_THAT([&] { write_small_dataset(folder / "set"); }, ThrowsMessage<std::runtime_error>(HasSubstr("is there already")));
+  EXPECT_THAT([&] { write_small_dataset(folder / "set"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("is there already")));
   DatasetHeader header = small_header();
   header.name = "another";
   write_small_dataset(folder / "set", header, {.overwrite = true});

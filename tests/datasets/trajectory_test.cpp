@@ -59,15 +59,17 @@ RC_GTEST_PROP(Tum, ComesBackAsItWent, ()) {
 TEST(Tum, IsWrittenForOtherTools) {
   std::ostringstream out;
   write_tum(out, std::vector<TimedPose>{{1'600'000'000'000'000'001, {1.0, -2.5, 0.0}}});
-  EXPECT_EQ(out.str(),
-            "1600000000.000000001 1.000000000 -2.500000000 0.000000000 0.000000000 0.000000000 0.000000000 1.000000000\n");
+  EXPECT_EQ(
+      out.str(),
+      "1600000000.000000001 1.000000000 -2.500000000 0.000000000 0.000000000 0.000000000 0.000000000 1.000000000\n");
 }
 
 TEST(ReadTrajectory, TellsFormatsApartByTheirContent) {
   const TemporaryFolder folder;
   const auto read = [&](std::string_view content) { return read_trajectory(folder.write("poses", content)); };
 
-  const Trajectory tum = read("# a comment\n1.5 1 2 0 0 0 0.7071067811865476 0.7071067811865476 \n\n2 3 4 0 0 0 0 -1\n");
+  const Trajectory tum =
+      read("# a comment\n1.5 1 2 0 0 0 0.7071067811865476 0.7071067811865476 \n\n2 3 4 0 0 0 0 -1\n");
   EXPECT_EQ(tum.format, TrajectoryFormat::kTum);
   ASSERT_EQ(tum.poses.size(), 2U);
   EXPECT_EQ(tum.poses[0].time, 1'500'000'000);
@@ -120,7 +122,8 @@ TEST(ReadTrajectory, NamesTheLineOfAMistake) {
   EXPECT_THAT(said(""), HasSubstr("holds no pose"));
   EXPECT_THAT(said("# nothing\n"), HasSubstr("holds no pose"));
   EXPECT_THAT(said("1 2 3\n"), AllOf(HasSubstr("poses:1:"), HasSubstr("found 3 columns")));
-  EXPECT_THAT(said("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0\n"), HasSubstr("poses:2: expected 8 columns, as in line 1, found 7"));
+  EXPECT_THAT(said("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0\n"),
+              HasSubstr("poses:2: expected 8 columns, as in line 1, found 7"));
   EXPECT_THAT(said("1 0 nan 0 0 0 0 1\n"), AllOf(HasSubstr("poses:1: column 3"), HasSubstr("'nan'")));
   EXPECT_THAT(said("1 0 1e99 0 0 0 0 1\n"), HasSubstr("poses:1: column 3"));
   EXPECT_THAT(said("1 0 0 0 0 0 0 0\n"), HasSubstr("no length"));

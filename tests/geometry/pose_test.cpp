@@ -74,7 +74,9 @@ TEST(Interpolate, TurnsTheShortWayRound) {
 }
 
 Eigen::Vector3d as_vector(const Pose2& pose) { return {pose.x, pose.y, pose.theta}; }
-Pose2 moved(const Pose2& pose, const Eigen::Vector3d& by) { return {pose.x + by[0], pose.y + by[1], pose.theta + by[2]}; }
+Pose2 moved(const Pose2& pose, const Eigen::Vector3d& by) {
+  return {pose.x + by[0], pose.y + by[1], pose.theta + by[2]};
+}
 
 /// J C J^T with the Jacobian of the composition taken by central differences.
 Eigen::Matrix3d numeric_covariance(const PoseEstimate& a, const PoseEstimate& b) {

@@ -26,7 +26,8 @@ RC_GTEST_PROP(SegmentDistance, IsTheLeastOverItsPoints, ()) {
   const Segment segment{any_point(), any_point()};
   const Eigen::Vector2d p = any_point();
   double least = std::numeric_limits<double>::max();
-  for (int i = 0; i <= 1000; ++i) least = std::min(least, (p - segment.a - i / 1000.0 * (segment.b - segment.a)).norm());
+  for (int i = 0; i <= 1000; ++i)
+    least = std::min(least, (p - segment.a - i / 1000.0 * (segment.b - segment.a)).norm());
   RC_ASSERT(distance(p, segment) <= least + 1e-9);
   RC_ASSERT(distance(p, segment) >= least - segment.length() / 1000.0);
 }

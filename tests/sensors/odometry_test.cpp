@@ -18,8 +18,7 @@ constexpr Timestamp kSecond = 1'000'000'000;
 MotionPath arc(int rows, double length, double turn) {
   std::vector<OdometryReading> path{{0, {}}};
   const geometry::Pose2 step{length / rows, 0.0, turn / rows};
-  for (int i = 1; i <= rows; ++i)
-    path.push_back({2 * kSecond * i / rows, path.back().T_odom_base * step});
+  for (int i = 1; i <= rows; ++i) path.push_back({2 * kSecond * i / rows, path.back().T_odom_base * step});
   return MotionPath(std::move(path));
 }
 
@@ -60,8 +59,10 @@ TEST(OdometryNoise, AgreesWithDrawnDrift) {
     geometry::Pose2 pose;
     for (int i = 0; i < kRows; ++i) {
       const double sigma_t = noise.translation_per_metre * std::sqrt(step);
-      const double sigma_r = std::hypot(noise.rotation_per_metre * std::sqrt(step), noise.rotation_per_radian * std::sqrt(turn));
-      pose = pose * geometry::Pose2{step + sigma_t * normal(random), sigma_t * normal(random), turn + sigma_r * normal(random)};
+      const double sigma_r =
+          std::hypot(noise.rotation_per_metre * std::sqrt(step), noise.rotation_per_radian * std::sqrt(turn));
+      pose = pose * geometry::Pose2{step + sigma_t * normal(random), sigma_t * normal(random),
+                                    turn + sigma_r * normal(random)};
     }
     const Eigen::Vector3d off(pose.x - expected.pose.x, pose.y - expected.pose.y, pose.theta - expected.pose.theta);
     covariance += off * off.transpose() / kDraws;
@@ -72,7 +73,8 @@ TEST(OdometryNoise, AgreesWithDrawnDrift) {
 TEST(OdometryNoise, TurningOnTheSpotAndBackCounts) {
   std::vector<OdometryReading> rows;
   for (int i = 0; i <= 20; ++i) rows.push_back({i * kSecond / 10, {0.0, 0.0, 0.1 * std::min(i, 20 - i)}});
-  const geometry::PoseEstimate motion = OdometryNoise{.rotation_per_radian = 0.03}.along(MotionPath(rows), 0, 2 * kSecond);
+  const geometry::PoseEstimate motion =
+      OdometryNoise{.rotation_per_radian = 0.03}.along(MotionPath(rows), 0, 2 * kSecond);
   EXPECT_NEAR(motion.pose.theta, 0.0, 1e-12);
   EXPECT_NEAR(std::sqrt(motion.covariance(2, 2)), 0.03 * std::sqrt(2.0), 1e-4);
 }
