@@ -58,7 +58,8 @@ AzimuthEdgeFilter::AzimuthEdgeFilter(const EdgeFilterParams& params, double colu
     const double here = i >= 0 ? kernel[i] : 0.0;
     difference_square += (ahead - here) * (ahead - here);
   }
-  nominal_width_ = std::hypot(sigma, params.expected_blur_px / column_px);
+  // Besides filter and lens: the area of a pixel, 1/12 px^2, and the interpolation between pixels, 1/6 px^2.
+  nominal_width_ = std::hypot(sigma, std::hypot(params.expected_blur_px, 0.5) / column_px);
   width_columns_ = nominal_width_;
   noise_gain_ = AnnulusTable::kScale * kInterpolationNoise * std::sqrt(square);
   extremum_gain_ = AnnulusTable::kScale * kInterpolationNoise * std::sqrt(difference_square) / 2.0;
@@ -82,12 +83,19 @@ void AzimuthEdgeFilter::filter_row(const AnnulusTable& table, const std::uint8_t
 }
 
 void AzimuthEdgeFilter::measure_widths(int columns, int least) {
+  constexpr int kAlone = 6;  // columns on both sides without another step
   const std::int16_t* response = response_.data() + kMargin;
-  for (int i = 0; i < columns; ++i) {
+  for (int i = kAlone; i < columns - kAlone; ++i) {
     const int here = std::abs(response[i]);
-    const int before = std::abs(response[i - 1]);
-    const int after = std::abs(response[i + 1]);
-    if (here < least || here < before || here <= after) continue;
+    if (here < least) continue;
+    const int sign = response[i] > 0 ? 1 : -1;
+    const int before = sign * response[i - 1];
+    const int after = sign * response[i + 1];
+    if (here < before || here <= after) continue;
+    int lowest = 0;
+    for (int j = i - kAlone; j <= i + kAlone; ++j) lowest = std::min(lowest, sign * response[j]);
+    const int aside = std::max(sign * response[i - kAlone], sign * response[i + kAlone]);
+    if (6 * -lowest > here || 4 * aside > here) continue;
     // A Gaussian of width w has the curvature -1/w^2 of its height at its top, and nearly so over three columns.
     widths_.push_back(static_cast<float>(std::sqrt(here / (2.0 * here - before - after))));
   }

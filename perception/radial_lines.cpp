@@ -60,6 +60,7 @@ struct RadialLineExtractor::State {
   void correct_hits();
   void find_lines(std::vector<RadialLine>& lines);
   void fit_peak(const LinePeak& peak, std::vector<RadialLine>& lines);
+  void widen_crowded(std::vector<RadialLine>& lines) const;
 
   RadialLineParams params;
   sensors::OmniCamera camera;
@@ -129,8 +130,8 @@ bool RadialLineExtractor::State::look(const std::uint8_t* pixels, Scene& scene) 
   filter.measure(annulus, pixels);
   noise = filter.noise();
   const double least = std::max(params.least_spread, params.least_spread_sigmas * noise);
-  return total > 0 && level_at(0.99) - level_at(0.01) >= least &&
-         scene.saturated_share <= params.largest_saturated_share;
+  const bool dark = level_at(0.99) < params.dark_level && level_at(0.99) - level_at(0.01) < least;
+  return total > 0 && !dark && scene.saturated_share <= params.largest_saturated_share;
 }
 
 /// Moves the hits to where they are seen from the rim's centre along an upright axis. A centre that is off by (du, dv)
@@ -181,6 +182,18 @@ void RadialLineExtractor::State::find_lines(std::vector<RadialLine>& lines) {
   std::sort(lines.begin(), lines.end(), [](const RadialLine& a, const RadialLine& b) { return a.azimuth < b.azimuth; });
 }
 
+/// Where edges crowd, what was fitted may be a neighbour's or two in one: that is not in the fit's own sigma.
+void RadialLineExtractor::State::widen_crowded(std::vector<RadialLine>& lines) const {
+  const std::size_t count = lines.size();
+  for (std::size_t i = 0; count > 1 && i < count; ++i) {
+    const double ahead = std::abs(geometry::angle_difference(lines[(i + 1) % count].azimuth, lines[i].azimuth));
+    const double behind =
+        std::abs(geometry::angle_difference(lines[(i + count - 1) % count].azimuth, lines[i].azimuth));
+    const double crowd = std::max(0.0, 1.0 - std::min(ahead, behind) / params.crowd_rad);
+    lines[i].sigma = std::hypot(lines[i].sigma, crowd * params.crowd_sigma_rad);
+  }
+}
+
 RadialLineExtractor::RadialLineExtractor(const sensors::OmniCamera& camera, const RadialLineParams& params)
     : state_(std::make_unique<State>(camera, params)) {}
 RadialLineExtractor::~RadialLineExtractor() = default;
@@ -212,6 +225,7 @@ void RadialLineExtractor::extract(const sensors::OmniImage& image, Scene& scene)
   state.slopes.clear();
   state.sigma_slope = std::max(1e-3, std::hypot(state.rim.sigma_px(), state.tilt.slope_sigma()));
   state.find_lines(scene.radial_lines);
+  state.widen_crowded(scene.radial_lines);
   state.tilt.learn(state.slopes);
   state.struts.remove(first, state.noise, scene.radial_lines);
   read_gray_curve(state.gray, first, state.noise, state.params.gray.bins, state.scratch, scene.gray);

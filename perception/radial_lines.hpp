@@ -38,11 +38,15 @@ struct RadialLineParams {
   double upright_slope_px = 0.05;     ///< 1-sigma of the slope in the second fit of a line that came out too steep
   double largest_scale = 4.0;         ///< of the residuals, in expected standard deviations
   double floor_sigma_rad = 0.0003;    ///< of a line's azimuth, whatever the fit says
+  double crowd_rad = 0.025;           ///< lines nearer than that to another may be two edges in one, or half of a pair
+  double crowd_sigma_rad = 0.0025;    ///< their further 1-sigma where they touch; it falls linearly to nothing
   RadialFitParams fit;
 
-  // Is there anything to be seen?
-  double least_spread = 6.0;             ///< between the 1st and 99th percentile of the annulus [grey levels]
-  double least_spread_sigmas = 7.0;      ///< the same in standard deviations of the noise
+  // Is there anything to be seen? An image without contrast is dark if even its bright parts are; else it shows plain
+  // walls.
+  double dark_level = 24.0;          ///< 99th percentile of the annulus below which contrast is asked for [grey levels]
+  double least_spread = 6.0;         ///< between the 1st and 99th percentile of the annulus [grey levels]
+  double least_spread_sigmas = 7.0;  ///< the same in standard deviations of the noise
   double largest_saturated_share = 0.6;  ///< of the annulus
 
   RimParams rim;

@@ -164,6 +164,33 @@ TEST(RadialLines, TwoEdgesOfOneSignADegreeApartStayTwo) {
   EXPECT_NEAR(nearest(seen, 1.02, 1).azimuth, 1.02, to_radians(0.2));
 }
 
+TEST(RadialLines, NarrowBarKeepsItsWidth) {
+  const AnnulusScene scene{.patches = {{1.0, 1.02, 60.0}, {3.0, 3.02, 180.0}}};
+  const Scene seen = look(test_camera(), render(test_camera(), scene));
+  EXPECT_NEAR(nearest(seen, 1.0, -1).azimuth, 1.0, to_radians(0.05));
+  EXPECT_NEAR(nearest(seen, 1.02, 1).azimuth, 1.02, to_radians(0.05));
+  EXPECT_NEAR(nearest(seen, 3.0, 1).azimuth, 3.0, to_radians(0.05));
+  EXPECT_NEAR(nearest(seen, 3.02, -1).azimuth, 3.02, to_radians(0.05));
+}
+
+TEST(RadialLines, TiltIsLearnedAndBendsShortLinesUpright) {
+  std::vector<TrueEdge> truth;
+  AnnulusScene scene = sectors(21, truth);
+  scene.tilt_rad = to_radians(1.0);
+  RadialLineExtractor extractor(test_camera());
+  Scene seen;
+  std::vector<double> medians;
+  for (unsigned i = 0; i < 6; ++i) {
+    scene.seed = i;
+    extractor.extract({.time = i, .pixels = render(test_camera(), scene)}, seen);
+    Score once;
+    score(seen, truth, once);
+    medians.push_back(median(once.errors_deg));
+  }
+  EXPECT_LT(medians.back(), 0.03);
+  EXPECT_LT(medians.back(), medians.front());
+}
+
 TEST(RadialLines, StrutsAreNoLandmarksButDarkPillarsAre) {
   const double back = 1.7 + std::numbers::pi;
   const AnnulusScene scene{.patches = {{0.5, 0.54, 20.0}, {2.6, 2.9, 170.0}},
