@@ -46,24 +46,26 @@ FanPainter::FanPainter(Source source, const sensors::SonarRing& ring, const grid
                                 " m does not fit a range of " + std::to_string(ring.range_max_m) +
                                 " m: choose one between " + std::to_string(ring.range_max_m / kMostCells) + " and " +
                                 std::to_string(ring.range_max_m / 4.0) + " m");
-  bin_m_ = std::max(0.5 * georeference.resolution_m, ring.range_max_m / kTableBins);
-  readings_ = static_cast<std::size_t>(ring.range_max_m / bin_m_) + 2;
+  // Distances are shifted so that the reading is exact: its own step may be the coarser one.
+  reading_bin_m_ = std::max(0.5 * georeference.resolution_m, ring.range_max_m / kTableBins);
+  rho_bin_m_ = 0.5 * reading_bin_m_;
+  readings_ = static_cast<std::size_t>(ring.range_max_m / reading_bin_m_) + 2;
   tables_.resize(readings_ * kLevels);
 }
 
 const FanPainter::Table& FanPainter::table(double reading_m, int level) {
   const bool echo = std::isfinite(reading_m);
-  const std::size_t bin = echo ? static_cast<std::size_t>(reading_m / bin_m_) : readings_ - 1;
+  const std::size_t bin = echo ? static_cast<std::size_t>(reading_m / reading_bin_m_) : readings_ - 1;
   Table& table = tables_[bin * kLevels + static_cast<std::size_t>(level - 1)];
   if (!table.rows.empty()) return table;
 
-  const double reading = echo ? (static_cast<double>(bin) + 0.5) * bin_m_ : reading_m;
+  const double reading = echo ? (static_cast<double>(bin) + 0.5) * reading_bin_m_ : reading_m;
   table.reading_m = reading;
   const double reliability = reliability_of(level) * (echo ? source_.reliability : source_.no_echo_reliability);
   const double widest = std::sin(half_width_rad_);
-  table.rows.resize(static_cast<std::size_t>(source_.reach(reading) / bin_m_) + 3);
+  table.rows.resize(static_cast<std::size_t>(source_.reach(reading) / rho_bin_m_) + 3);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const double rho = (static_cast<double>(row) + 0.5) * bin_m_;
+    const double rho = (static_cast<double>(row) + 0.5) * rho_bin_m_;
     for (int a = 0; a < kAngleBins; ++a) {
       const double theta = std::asin(std::sqrt((a + 0.5) / kAngleBins) * widest);
       const evidence::GridMass mass = echo ? source_.mass(rho, theta, reading) : source_.no_echo_mass(rho, theta);
@@ -90,10 +92,10 @@ FanPainter::Fan FanPainter::fan(const geometry::Pose2& pose, double reach_m) con
 
 void FanPainter::paint_rows(const Fan& fan, const Table& table, int begin, int end) {
   const float axis_x = static_cast<float>(fan.axis_x), axis_y = static_cast<float>(fan.axis_y);
-  const float rho_bins = static_cast<float>(georeference_.resolution_m / bin_m_);
+  const float rho_bins = static_cast<float>(georeference_.resolution_m / rho_bin_m_);
   const float widest = static_cast<float>(std::sin(half_width_rad_));
   const float angle_bins = static_cast<float>(kAngleBins) / (widest * widest);
-  const float shift = static_cast<float>(fan.shift_m / bin_m_);
+  const float shift = static_cast<float>(fan.shift_m / rho_bin_m_);
   const float last_rho = static_cast<float>(table.rows.size() - 1);
   std::array<std::int32_t, grids::Tile::kSide> entry;
   const evidence::FixedLogCommonality* const entries = table.rows.front().data();

@@ -66,7 +66,8 @@ class FanPainter {
   Source source_;
   grids::Georeference georeference_;
   double half_width_rad_ = 0.0;
-  double bin_m_ = 0.0;  ///< step of the tables in reading and in distance
+  double reading_bin_m_ = 0.0;  ///< steps of the tables
+  double rho_bin_m_ = 0.0;
   std::vector<Table> tables_;  ///< by reading, then level; the last reading is "no echo"
   std::size_t readings_ = 0;
   TileWindow window_;

@@ -148,14 +148,17 @@ void ScanPainter::join() {
   double sine_before = 0.0;  // of the incidence on the surface shared with the beam before; 0: none shared
   for (std::size_t i = 0; i < beams_.size(); ++i) {
     Beam& beam = beams_[i];
-    double sine_after = 0.0;
+    double sine_after = 0.0, sine_of_next = 0.0;
     if (i + 1 < beams_.size() && beam.hit_class >= 0 && beams_[i + 1].hit_class >= 0) {
       const Beam& next = beams_[i + 1];
       const Eigen::Vector2d along = next.range_m * next.direction - beam.range_m * beam.direction +
                                     (next.origin - beam.origin) * resolution;
       const double length = along.norm();
       const double sine = std::abs(cross(beam.direction, along));
-      if (length > 0.0 && sine >= min_sine * length) sine_after = sine / length;
+      if (length > 0.0 && sine >= min_sine * length) {
+        sine_after = sine / length;
+        sine_of_next = std::max(min_sine, std::abs(cross(next.direction, along)) / length);
+      }
     }
     beam.joined = sine_after > 0.0;
     const double sine = std::max(sine_before, sine_after);  // of two surfaces, the one met more steeply
@@ -164,7 +167,7 @@ void ScanPainter::join() {
       beam.far_m = beam.range_m + across_m / sine;
       beam.near_m = std::max(0.0, beam.range_m - across_m / sine);
     }
-    sine_before = sine_after;
+    sine_before = sine_of_next;
   }
 }
 
