@@ -142,7 +142,7 @@ struct World {
   Nuisances nuisances;
 };
 
-/// Reads a world file (sim/worlds/*.yaml; docs: the comments in sim/worlds/demo.yaml).
+/// Reads a world file (sim/worlds/README.md lists every key).
 /// \throws std::runtime_error  "file:line: ..." for a missing file, a wrong type, an impossible value or an unknown key
 ///   (with the nearest known one).
 [[nodiscard]] World load_world(const std::filesystem::path& file);

@@ -104,9 +104,17 @@ sensors:
     - {preset: opensimple}
 )";
 
+/// A folder that no test running beside this one uses.
+fs::path own_folder() {
+  const fs::path folder = fs::path(testing::TempDir()) /
+                          ("credo_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  fs::create_directories(folder);
+  return folder;
+}
+
 /// What loading this text complains about; empty if it does not.
 std::string complaint(const std::string& text) {
-  const fs::path file = fs::path(testing::TempDir()) / "world.yaml";
+  const fs::path file = own_folder() / "world.yaml";
   std::ofstream(file) << text;
   try {
     (void)load_world(file);
@@ -163,6 +171,39 @@ TEST(WorldFile, ThingsThatFindNoWallSayWhere) {
               HasSubstr(":6: there is no wall within 0.5 m of [2, 1.5]"));
   EXPECT_THAT(complaint(changed("path:", "  posters: [{at: [2, 0], material: papre}]\npath:")),
               HasSubstr("unknown material 'papre'"));
+}
+
+/// The example in the manual uses every key; what it calls a default is one.
+TEST(WorldFile, TheManualsExampleLoadsAndItsDefaultsAreTrue) {
+  std::ifstream manual(std::string(CREDO_SOURCE_DIR) + "/sim/worlds/README.md");
+  std::string line, yaml;
+  bool inside = false;
+  while (std::getline(manual, line)) {
+    if (line.starts_with("```")) {
+      inside = line == "```yaml";
+      continue;
+    }
+    if (inside) yaml += line + "\n";
+  }
+  const fs::path file = own_folder() / "manual.yaml";
+  std::ofstream(file) << yaml;
+  World world;
+  ASSERT_NO_THROW(world = load_world(file));
+  EXPECT_EQ(world.path.size(), 4U);
+  const World defaults;
+  EXPECT_EQ(world.ceiling_m, defaults.ceiling_m);
+  EXPECT_EQ(world.exposure_gain, defaults.exposure_gain);
+  EXPECT_EQ(world.drive.pause_s, defaults.drive.pause_s);
+  EXPECT_EQ(world.drive.turn_speed_radps, defaults.drive.turn_speed_radps);
+  EXPECT_EQ(world.nuisances.noise_grey, defaults.nuisances.noise_grey);
+  EXPECT_EQ(world.nuisances.tilt_rad, defaults.nuisances.tilt_rad);
+  EXPECT_EQ(world.nuisances.glare, defaults.nuisances.glare);
+  EXPECT_EQ(world.initial_pose_sigma, defaults.initial_pose_sigma);
+  EXPECT_EQ(world.range_finders[0].finder.noise, range_finder_preset("opensimple").finder.noise);
+  EXPECT_EQ(world.range_finders[0].faintest, range_finder_preset("opensimple").faintest);
+  EXPECT_EQ(world.camera->struts_rad, camera_preset("conic-640").struts_rad);
+  EXPECT_EQ(world.camera->strut_width_px, camera_preset("conic-640").strut_width_px);
+  EXPECT_EQ(world.sonars[0].cross_talk_share, SonarSetup{}.cross_talk_share);
 }
 
 TEST(WorldFile, AMissingFileSaysSo) {
