@@ -18,8 +18,8 @@ struct MapAccuracy {
   std::int64_t observed = 0;         ///< cells that count
   std::int64_t correct = 0;          ///< occupied iff m(occupied) > m(empty), as the truth, up to `tolerance_cells` at walls
   std::int64_t undecided = 0;        ///< neither mass is greater; never correct
-  std::int64_t wrongly_empty = 0;    ///< said empty, and occupied in truth
-  std::int64_t wrongly_occupied = 0; ///< said occupied, and empty in truth
+  std::int64_t wrongly_empty = 0;    ///< said empty, a wall in truth, and no wall was found within the tolerance
+  std::int64_t wrongly_occupied = 0; ///< said occupied, and no wall within the tolerance
   std::int64_t withheld = 0;         ///< called unknown or contested by `DecisionParams`, whichever mass is greater
   std::int64_t surface = 0;          ///< true wall cells with something observed within the tolerance
   std::int64_t surface_found = 0;    ///< of them, said occupied within the tolerance
@@ -33,7 +33,7 @@ struct MapAccuracy {
 };
 
 struct MapAccuracyParams {
-  int tolerance_cells = 1;  ///< at walls: an occupied cell may lie this far from a true wall, a wall this far from it
+  int tolerance_cells = 1;  ///< at walls: what is said to be a wall may lie this far from a true one, diagonals included
   grids::DecisionParams decision;
 };
 
