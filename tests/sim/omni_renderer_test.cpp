@@ -128,13 +128,19 @@ TEST(OmniRenderer, TheRimIsSeenAroundTheTrueCenter) {
   const Eigen::Vector2d center = renderer.optics().center_px;
   EXPECT_GT((center - world.camera->camera.center_px).norm(), 0.1);
   const double rim = *world.camera->camera.rim_radius_px;
+  int compared = 0;
   for (double angle = 0.0; angle < 6.28; angle += 0.2) {
-    const auto at = [&](double radius) {
-      return image.at<float>(static_cast<int>(std::lround(center.y() + radius * std::sin(angle))),
-                             static_cast<int>(std::lround(center.x() + radius * std::cos(angle))));
+    const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
+    const auto pixel = [&](double radius) {
+      const Eigen::Vector2d p = center + radius * ray;
+      return cv::Point(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
     };
-    EXPECT_GT(at(rim - 3.0), at(rim + 3.0) + 20.0F) << angle;
+    // The image is hardly higher than the mirror.
+    if (!cv::Rect(0, 0, image.cols, image.rows).contains(pixel(rim + 3.0))) continue;
+    EXPECT_GT(image.at<float>(pixel(rim - 3.0)), image.at<float>(pixel(rim + 3.0)) + 20.0F) << angle;
+    ++compared;
   }
+  EXPECT_GT(compared, 20);
 }
 
 TEST(OmniRenderer, TiltMovesEdgesAwayFromTheHorizonOnly) {
