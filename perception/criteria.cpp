@@ -37,21 +37,17 @@ std::array<evidence::BinaryMass, 5> segment_criteria(const SegmentMeasures& meas
   return criteria;
 }
 
-void measure_points(std::span<const sensors::ScanPoint> points, const geometry::LineEstimate& line, bool fitted,
+void measure_points(std::span<const sensors::ScanPoint> points, const geometry::LineEstimate& line,
                     double beam_increment, const PointNoise& noise, const CriteriaParams& params,
                     SegmentMeasures& measures) {
   const LineFit fit = judge_line(points, line, noise);
   measures.support = fit.support;
   measures.density_per_m = measures.relative_density = 0.0;
   const double n = fit.support;
-  // A line through two points fits them whatever they are.
-  if (fit.support == 0 || (fitted && fit.support < 3)) {
-    measures.mean_residual_m = measures.mean_residual_sigmas = std::numeric_limits<double>::quiet_NaN();
-  } else {
-    const double correction = fitted ? std::sqrt(n / (n - 2.0)) : 1.0;
-    measures.mean_residual_m = correction * fit.mean_residual_m;
-    measures.mean_residual_sigmas = correction * fit.mean_residual_sigmas;
-  }
+  // A line through two points fits them whatever they are, and one through three nearly so.
+  const double correction = fit.support > 3 ? std::sqrt(n / (n - 2.0)) : std::numeric_limits<double>::quiet_NaN();
+  measures.mean_residual_m = correction * fit.mean_residual_m;
+  measures.mean_residual_sigmas = correction * fit.mean_residual_sigmas;
   if (fit.support == 0) return;
   // From the first to the last reading and half a beam at either side.
   double spacing = 0.0;

@@ -52,10 +52,10 @@ struct CriteriaParams {
 [[nodiscard]] std::array<evidence::BinaryMass, 5> segment_criteria(const SegmentMeasures& measures,
                                                                    const CriteriaParams& params = {});
 
-/// Points along a line: their density and how they fit. Sets the residuals, support and densities.
-/// \param line  to which the residuals are taken
-/// \param fitted  the line was fitted to just these points: the mean residual is corrected for the two parameters it took
-void measure_points(std::span<const sensors::ScanPoint> points, const geometry::LineEstimate& line, bool fitted,
+/// Points along the line that was fitted to them: how they fit it and their density. Sets the residuals, support and
+/// densities. The mean residual is corrected for the two parameters that the line took; below four points it says
+/// nothing and is nan.
+void measure_points(std::span<const sensors::ScanPoint> points, const geometry::LineEstimate& line,
                     double beam_increment, const PointNoise& noise, const CriteriaParams& params,
                     SegmentMeasures& measures);
 

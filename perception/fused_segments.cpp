@@ -14,8 +14,8 @@ namespace {
 
 using evidence::FusedBinaryMass;
 
-/// Fewer points have no residuals of their own worth judging: theirs are taken to the whole's line.
-constexpr int kOwnLinePoints = 4;
+/// One reading between two cuts is no segment.
+constexpr int kLeastPoints = 2;
 
 struct Sector {
   double from = 0.0;
@@ -41,10 +41,11 @@ class Fuser {
   Fuser(double beam_increment, const PointNoise& noise, const CriteriaParams& params, Scene& scene)
       : beam_increment_(beam_increment), noise_(noise), params_(params), scene_(scene) {}
 
-  /// The pieces of one range segment between its ends and cuts. Pieces without points are left out.
+  /// The pieces of one range segment between its ends and cuts; the whole where cuts have left no piece enough points.
   void add_pieces(const RangeSegment& whole, const std::array<SegmentEndView, 2>& ends,
                   std::span<const SegmentCut> cuts) {
     gray_sum_ = gray_width_ = 0.0;
+    const std::size_t before = scene_.segments.size();
     FusedSegment piece;
     piece.extent.a = whole.extent.a;
     piece.first_point = whole.first;
@@ -70,12 +71,13 @@ class Fuser {
     piece.source_b = piece.radial_line_b >= 0 ? EndpointSource::kBoth : EndpointSource::kRangeFinder;
     piece.end_b = whole.end_b;
     add_piece(whole, piece);
+    if (scene_.segments.size() == before) add_pieces(whole, ends, {});
   }
 
   /// The whole of the pieces that were added last.
   FusedBinaryMass judge_whole(const RangeSegment& whole, int endpoint_case) {
     SegmentMeasures measures;
-    measure_points(points(whole.first, whole.last), whole.fit.line, true, beam_increment_, noise_, params_, measures);
+    measure_points(points(whole.first, whole.last), whole.fit.line, beam_increment_, noise_, params_, measures);
     measures.endpoint_case = scene_.camera_seen ? endpoint_case : 0;
     if (gray_width_ > 0.0) measures.mean_gray_deviation = gray_sum_ / gray_width_;
     std::array<evidence::BinaryMass, 5> criteria;
@@ -90,7 +92,7 @@ class Fuser {
   }
 
   void add_piece(const RangeSegment& whole, FusedSegment piece) {
-    if (piece.last_point < piece.first_point) return;
+    if (piece.last_point - piece.first_point + 1 < kLeastPoints) return;
     const auto own = points(piece.first_point, piece.last_point);
     const bool uncut = piece.first_point == whole.first && piece.last_point == whole.last;
     const LineFit fit = uncut ? whole.fit : fit_line(own, noise_);
@@ -99,8 +101,7 @@ class Fuser {
     piece.endpoint_case = endpoint_case(piece.source_a, piece.source_b);
 
     SegmentMeasures measures;
-    const bool fitted = uncut || static_cast<int>(own.size()) >= kOwnLinePoints;
-    measure_points(own, fitted ? fit.line : whole.fit.line, fitted, beam_increment_, noise_, params_, measures);
+    measure_points(own, fit.line, beam_increment_, noise_, params_, measures);
     measures.endpoint_case = scene_.camera_seen ? piece.endpoint_case : 0;
     const Sector sector = sector_of(piece.extent, scene_.camera_origin);
     measures.mean_gray_deviation = gray_deviation(scene_.gray, sector.from, sector.width);

@@ -17,7 +17,8 @@ using geometry::LineEstimate;
 using sensors::ScanPoint;
 
 constexpr double kLargestSigmaAngle = std::numbers::pi / 2.0;
-constexpr int kSettled = 2;  // from this iteration on, the weights are final
+constexpr int kL1Steps = 2;
+constexpr double kSettledAngle = 1e-6;
 
 /// Weighted sums of points relative to an anchor.
 struct Moments {
@@ -44,14 +45,16 @@ bool set_line(const Moments& m, const Eigen::Vector2d& anchor, LineEstimate& lin
   return true;
 }
 
-/// What a point may say after its residual is known: L1 at first, which finds the line among outliers, then a weight that
-/// reaches zero.
-double robust_weight(double sigmas, int iteration, const LineFitParams& params) {
-  if (iteration < kSettled) return 1.0 / std::max(1.0, sigmas);
-  if (sigmas <= params.full_weight_until) return 1.0;
-  if (sigmas >= params.no_weight_from) return 0.0;
-  return (params.no_weight_from - sigmas) / (params.no_weight_from - params.full_weight_until);
+/// What a point may say after its residual is known, by the square of it: 1, falling to 0.
+double robust_weight(double squared_sigmas, const LineFitParams& params) {
+  const double full = params.full_weight_until, none = params.no_weight_from;
+  if (squared_sigmas <= full * full) return 1.0;
+  if (squared_sigmas >= none * none) return 0.0;
+  return (none - std::sqrt(squared_sigmas)) / (none - full);
 }
+
+/// The weight of the first steps, of an L1 fit, which finds the line among outliers.
+double l1_weight(double squared_sigmas) { return squared_sigmas <= 1.0 ? 1.0 : 1.0 / std::sqrt(squared_sigmas); }
 
 double range_on_line(const ScanPoint& point, const Eigen::Vector2d& normal, double offset) {
   const double along = normal.dot(point.ray);
@@ -59,6 +62,23 @@ double range_on_line(const ScanPoint& point, const Eigen::Vector2d& normal, doub
   // The point lies `residual` off the line along the normal, so residual / along off it along the ray.
   const double range = point.range_m - (normal.dot(point.position) - offset) / along;
   return range >= 0.5 * point.range_m && range <= 2.0 * point.range_m ? range : point.range_m;
+}
+
+/// Weighted moments about a line.
+/// \returns whether there are outliers
+bool weigh(std::span<const ScanPoint> points, const LineEstimate& line, const PointNoise& noise, bool l1,
+           const Eigen::Vector2d& anchor, Moments& moments) {
+  const Eigen::Vector2d normal = line.normal();
+  const double offset = normal.dot(line.centroid);
+  double largest = 0.0;
+  for (const ScanPoint& point : points) {
+    const double variance = noise.variance_across(point.ray, range_on_line(point, normal, offset), normal);
+    const double residual = normal.dot(point.position) - offset;
+    const double squared = residual * residual / variance;
+    largest = std::max(largest, squared);
+    moments.add((l1 ? l1_weight(squared) : robust_weight(squared, noise.params)) / variance, point.position - anchor);
+  }
+  return largest > noise.params.full_weight_until * noise.params.full_weight_until;
 }
 
 void set_line_across_ray(std::span<const ScanPoint> points, LineEstimate& line) {
@@ -72,8 +92,8 @@ void set_covariance(std::span<const ScanPoint> points, const PointNoise& noise, 
   double information = 0.0, moment = 0.0;
   for (const ScanPoint& point : points) {
     const double variance = noise.variance_across(point.ray, range_on_line(point, normal, offset), normal);
-    const double sigmas = std::abs(normal.dot(point.position) - offset) / std::sqrt(variance);
-    const double weight = robust_weight(sigmas, kSettled, noise.params) / variance;
+    const double residual = normal.dot(point.position) - offset;
+    const double weight = robust_weight(residual * residual / variance, noise.params) / variance;
     const double s = along.dot(point.position - fit.line.centroid);
     information += weight;
     moment += weight * s * s;
@@ -129,19 +149,16 @@ LineFit fit_line(std::span<const ScanPoint> points, const PointNoise& noise) {
   Moments first;
   for (const ScanPoint& point : points) first.add(1.0 / (point.sigma_m * point.sigma_m + 1e-8), point.position - anchor);
   bool spread = set_line(first, anchor, line);
+  bool outliers = false;  // L1 steps are for scans that need them
   for (int iteration = 0; spread && points.size() > 2 && iteration < noise.params.iterations; ++iteration) {
-    const Eigen::Vector2d normal = line.normal();
-    const double offset = normal.dot(line.centroid);
-    Moments moments;
-    for (const ScanPoint& point : points) {
-      const double variance = noise.variance_across(point.ray, range_on_line(point, normal, offset), normal);
-      const double sigmas = std::abs(normal.dot(point.position) - offset) / std::sqrt(variance);
-      moments.add(robust_weight(sigmas, iteration, noise.params) / variance, point.position - anchor);
-    }
-    if (moments.w <= 0.0) break;
+    const bool l1 = outliers && iteration <= kL1Steps;
     const double before = line.angle;
+    Moments moments;
+    outliers |= weigh(points, line, noise, l1, anchor, moments) && iteration == 0;
+    if (iteration == 0 && outliers) continue;
+    if (moments.w <= 0.0) break;
     spread = set_line(moments, anchor, line);
-    if (iteration >= 3 && std::abs(line.angle - before) < 1e-9) break;
+    if (!l1 && iteration > 0 && std::abs(line.angle - before) < kSettledAngle) break;
   }
   if (!spread) set_line_across_ray(points, line);
   LineFit fit = judge_line(points, line, noise);

@@ -3,6 +3,7 @@
 
 #include "perception/observer.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace credo::perception {
@@ -31,6 +32,7 @@ struct Observer::State {
       extractor.emplace(*rig.camera, params.radial_lines);
       scene.camera_origin = rig.camera->T_base_camera.translation();
     }
+    if (rig.odometry) odometry = *rig.odometry;
     if (!rig.range_finders.empty()) {
       range_finder = rig.range_finders.front();
       segmenter.emplace(*range_finder, scene_params.segmentation, params.line_fit);
@@ -44,6 +46,7 @@ struct Observer::State {
   SceneParams scene_params;
   std::optional<RadialLineExtractor> extractor;
   std::optional<sensors::RangeFinder> range_finder;
+  sensors::OdometryNoise odometry{.translation_per_metre = 0.2, .rotation_per_metre = 0.2, .rotation_per_radian = 0.2};
   std::optional<Segmenter> segmenter;
   Scene scene;
 
@@ -71,10 +74,13 @@ void Observer::State::look(const sensors::Acquisition& acquisition) {
 /// The range finder's part.
 void Observer::State::measure(const sensors::Acquisition& acquisition) {
   scene.points.clear();
+  scene.carry_covariance.setZero();
   segments.clear();
   if (segmenter && acquisition.scan) {
     sensors::carry_scan(*acquisition.scan, *range_finder, acquisition.path, acquisition.time, scene.points);
-    segmenter->segment(scene.points, segments);
+    segmenter->segment(acquisition.scan->ranges_m, scene.points, segments);
+    const auto [first, last] = std::minmax(acquisition.scan->time, acquisition.time);
+    scene.carry_covariance = odometry.along(acquisition.path, first, last).covariance;
   }
   scene.range_finder_seen = !scene.points.empty();
 }

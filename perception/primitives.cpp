@@ -65,7 +65,7 @@ void place(const PointEstimate& point, Primitive& primitive) {
 PointEstimate middle_of(const geometry::Segment& extent, const geometry::LineEstimate& line, SegmentEnd end_a,
                         SegmentEnd end_b, double spacing_a, double spacing_b) {
   const auto variance = [&](SegmentEnd end, double spacing) {
-    const bool fixed = end == SegmentEnd::kJoined || end == SegmentEnd::kFree;
+    const bool fixed = end == SegmentEnd::kJoined || end == SegmentEnd::kFree || end == SegmentEnd::kOpen;
     const double sigma = fixed ? spacing / std::sqrt(3.0) : 0.5 * extent.length();
     return sigma * sigma;
   };
@@ -227,9 +227,10 @@ class Namer {
 
   void add_free_end(std::size_t i, bool at_b) {
     const RangeSegment& s = parts_.segments[i];
-    if ((at_b ? s.end_b : s.end_a) != SegmentEnd::kFree) return;
+    const SegmentEnd kind = at_b ? s.end_b : s.end_a;
+    if (kind != SegmentEnd::kFree && kind != SegmentEnd::kOpen) return;
     if (s.fit.support < params_.free_end_support || is_curved(i, at_b)) return;
-    const JunctionType type = free_end_type(at_b ? s.jump_b_sigmas : s.jump_a_sigmas, params_);
+    const JunctionType type = free_end_type(kind, at_b ? s.jump_b_sigmas : s.jump_a_sigmas, params_);
     const auto end = place_of_end(i, at_b);
     if (!end || type.believed < params_.least_believed) return;
     Primitive edge{.type = type.type};
@@ -309,13 +310,13 @@ JunctionType junction_type(double interior_angle, double sigma_angle, double gap
   return decide(evidence::combine(which, evidence::whether_regular(gap, params.joined)));
 }
 
-JunctionType free_end_type(double jump_sigmas, const PrimitiveParams& params) {
+JunctionType free_end_type(SegmentEnd end, double jump_sigmas, const PrimitiveParams& params) {
   // The angle on the robot's side is more than 180 degrees, whatever the hidden face does: an edge, or none of the three.
   evidence::WhichKind which;
   which.one_or_other = {0.0, params.angle_committed, 0.0};
   which.unknown = 1.0 - params.angle_committed;
-  const double solid = params.free_end_committed *
-                       evidence::rising(jump_sigmas, params.free_end_none_sigmas, params.free_end_full_sigmas);
+  const double jump = evidence::rising(jump_sigmas, params.free_end_none_sigmas, params.free_end_full_sigmas);
+  const double solid = end == SegmentEnd::kOpen ? params.open_end_committed : params.free_end_committed * jump;
   return decide(evidence::combine(which, {.regular = solid, .other = 0.0, .unknown = 1.0 - solid}));
 }
 

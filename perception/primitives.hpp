@@ -25,10 +25,11 @@ struct PrimitiveParams {
   double angle_sigma_good_rad = 0.14;  ///< an angle known better than this counts in full,
   double angle_sigma_bad_rad = 0.52;   ///< one known worse than this not at all
   // Second criterion: the distance between the ends, in expected standard deviations.
-  evidence::WhetherRegularParams joined{.committed = 0.9, .regular_until = 2.0, .other_from = 5.0};
+  evidence::WhetherRegularParams joined{.committed = 0.9, .regular_until = 3.0, .other_from = 6.0};
   // An end with something farther beside it: one face of an edge. How far the jump speaks for it, in expected standard
   // deviations of the two ranges' difference.
   double free_end_committed = 0.6;
+  double open_end_committed = 0.3;   ///< the same for an end beside which nothing came back
   double free_end_none_sigmas = 3.0;
   double free_end_full_sigmas = 9.0;
   double least_believed = 0.1;     ///< Cr of the type of a junction, at least
@@ -68,8 +69,9 @@ struct JunctionType {
                                          const PrimitiveParams& params = {});
 
 /// A single face that ends in front of something farther.
-/// \param jump_sigmas  range difference in expected standard deviations
-[[nodiscard]] JunctionType free_end_type(double jump_sigmas, const PrimitiveParams& params = {});
+/// \param end          kFree or kOpen
+/// \param jump_sigmas  of a free end: range difference in expected standard deviations
+[[nodiscard]] JunctionType free_end_type(SegmentEnd end, double jump_sigmas, const PrimitiveParams& params = {});
 
 /// Belief in a radial line that meets no segment.
 /// \param gray_noise  1-sigma of a grey level

@@ -21,6 +21,7 @@ const char* to_string(SegmentEnd end) {
   switch (end) {
     case SegmentEnd::kJoined: return "joined";
     case SegmentEnd::kFree: return "free";
+    case SegmentEnd::kOpen: return "open";
     case SegmentEnd::kOccluded: return "occluded";
     case SegmentEnd::kUnseen: return "unseen";
   }

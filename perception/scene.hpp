@@ -31,6 +31,7 @@ enum class EndpointSource { kRangeFinder, kCamera, kBoth };
 enum class SegmentEnd {
   kJoined,    ///< meets the neighbouring segment
   kFree,      ///< something farther is seen beside it: a vertical edge of the world
+  kOpen,      ///< several beams beside it came back empty: likely an edge, with nothing in reach behind it
   kOccluded,  ///< something nearer hides the rest
   kUnseen     ///< no readings beside it
 };
@@ -102,6 +103,8 @@ struct Scene {
   std::vector<sensors::ScanPoint> points;  ///< base frame at `time`, counter-clockwise
   std::vector<FusedSegment> segments;      ///< counter-clockwise
   std::vector<Primitive> primitives;
+  /// Of the motion (x, y, theta) over which the scan was carried to `time`: an error common to all its points.
+  Eigen::Matrix3d carry_covariance = Eigen::Matrix3d::Zero();
   double mean_conflict = 0.0;  ///< of the five criteria over the segments
   ConflictReport conflicts;
   bool camera_seen = false;    ///< an image was there and usable

@@ -14,6 +14,7 @@ namespace {
 using geometry::LineEstimate;
 using sensors::ScanPoint;
 
+constexpr double kFarthest = 1e5;  // m; no range finder reads that
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double median_of_three(double a, double b, double c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
@@ -41,7 +42,8 @@ Segmenter::Segmenter(const sensors::RangeFinder& range_finder, const Segmentatio
     : noise_{range_finder.noise, fit_params},
       params_(params),
       increment_(std::abs(range_finder.angle_increment_rad)),
-      clockwise_(range_finder.angle_increment_rad < 0.0) {
+      clockwise_(range_finder.angle_increment_rad < 0.0),
+      range_max_(range_finder.range_max_m) {
   if (increment_ <= 0.0) return;
   const double full_turn = 2.0 * std::numbers::pi;
   if (range_finder.count * increment_ > full_turn - 1.5 * increment_)
@@ -142,7 +144,8 @@ void Segmenter::split(const Points& points, int first, int last) {
   split(points, at + 1, last);
 }
 
-/// How much chi-square grows if two pieces are one line, as a share of what chance allows.
+/// How much chi-square would grow if two pieces were one line: the Mahalanobis distance of their lines, compared at the
+/// second one's centroid.
 double Segmenter::merge_cost(const Points& points, const Piece& a, const Piece& b) const {
   if (a.size() + b.size() < 3) return kNever;
   const ScanPoint &end = points[a.last], &begin = points[b.first];
@@ -152,11 +155,17 @@ double Segmenter::merge_cost(const Points& points, const Piece& a, const Piece& 
   const bool gap_counts = beams > 1 + stray;
   if (gap_counts && (end.position - begin.position).squaredNorm() > params_.merge_gap_m * params_.merge_gap_m)
     return kNever;
-  const LineEstimate joint = fit_line(span(points, a.first, b.last), noise_).line;
-  const double growth = judge_line(span(points, a.first, a.last), joint, noise_).chi2 +
-                        judge_line(span(points, b.first, b.last), joint, noise_).chi2 - a.fit.chi2 - b.fit.chi2;
-  const bool one_freedom = a.size() == 1 || b.size() == 1;
-  return growth / (params_.merge_chi2 * (one_freedom ? 0.72 : 1.0));  // 6.63 / 9.21
+  const LineEstimate &one = a.fit.line, &two = b.fit.line;
+  const Eigen::Vector2d between = two.centroid - one.centroid;
+  const double s = one.direction().dot(between);
+  const double offset = one.normal().dot(between);
+  const double turn = std::remainder(two.angle - one.angle, std::numbers::pi);
+  const double turn_variance_one = one.sigma_angle * one.sigma_angle;
+  const double offset_variance = variance_at(one, two.centroid) + two.sigma_across * two.sigma_across;
+  const double turn_variance = turn_variance_one + two.sigma_angle * two.sigma_angle;
+  const double shared = s * turn_variance_one;  // a line that turns moves what lies ahead on it
+  const double det = offset_variance * turn_variance - shared * shared;
+  return (offset * offset * turn_variance - 2.0 * offset * turn * shared + turn * turn * offset_variance) / det;
 }
 
 void Segmenter::rate_merge(const Points& points, std::size_t i) {
@@ -166,7 +175,7 @@ void Segmenter::rate_merge(const Points& points, std::size_t i) {
   for (std::size_t skip = 1; skip <= 2 && i + skip < pieces_.size(); ++skip) {
     if (skip == 2 && pieces_[i + 1].size() > params_.bridged_outliers) break;
     const double cost = merge_cost(points, piece, pieces_[i + skip]);
-    if (cost > 1.0 || cost >= piece.merge_cost) continue;
+    if (cost > params_.merge_chi2 || cost >= piece.merge_cost) continue;
     piece.merge_cost = cost;
     piece.merge_with = static_cast<int>(skip);
   }
@@ -174,56 +183,104 @@ void Segmenter::rate_merge(const Points& points, std::size_t i) {
 
 /// Joins the two neighbours that fit one line best, until none do.
 void Segmenter::merge(const Points& points) {
-  if (params_.merge_chi2 <= 0.0) return;
   for (std::size_t i = 0; i < pieces_.size(); ++i) rate_merge(points, i);
   while (true) {
     const auto best = std::min_element(pieces_.begin(), pieces_.end(),
                                        [](const Piece& a, const Piece& b) { return a.merge_cost < b.merge_cost; });
     if (best == pieces_.end() || best->merge_with == 0) return;
-    best->last = (best + best->merge_with)->last;
-    best->fit = fit_line(span(points, best->first, best->last), noise_);
+    const Piece& other = *(best + best->merge_with);
+    const LineFit joint = fit_line(span(points, best->first, other.last), noise_);
+    const double growth = judge_line(span(points, best->first, best->last), joint.line, noise_).chi2 +
+                          judge_line(span(points, other.first, other.last), joint.line, noise_).chi2 - best->fit.chi2 -
+                          other.fit.chi2;
+    if (growth > params_.merge_chi2) {
+      best->merge_cost = kNever;
+      best->merge_with = 0;
+      continue;
+    }
+    best->last = other.last;
+    best->fit = joint;
     const std::size_t at = static_cast<std::size_t>(best - pieces_.begin());
     pieces_.erase(best + 1, best + 1 + best->merge_with);
     for (std::size_t i = at < 2 ? 0 : at - 2; i <= at; ++i) rate_merge(points, i);
   }
 }
 
-/// Where a full turn has no break, its first piece goes to the end, so that it can be merged with the last one.
-void Segmenter::close_turn(Points& points) {
-  if (turn_ == 0 || pieces_.size() < 3 || !connected(points.back(), points.front())) return;
-  const int shift = pieces_.front().size();
-  const int n = static_cast<int>(points.size());
-  std::rotate(points.begin(), points.begin() + shift, points.end());
-  std::rotate(pieces_.begin(), pieces_.begin() + 1, pieces_.end());
-  for (Piece& piece : pieces_) {
-    piece.first -= shift;
-    piece.last -= shift;
+/// Each reading of first..last goes to the line that explains it; the lines' own errors count, for they are prolonged.
+Segmenter::Boundary Segmenter::boundary(const Points& points, const Piece& a, const Piece& b, int first, int last) const {
+  const double most = noise_.params.no_weight_from * noise_.params.no_weight_from;
+  const auto chi2 = [&](const ScanPoint& point, const LineEstimate& line) {
+    const Eigen::Vector2d normal = line.normal();
+    const double residual = normal.dot(point.position - line.centroid);
+    const double variance = noise_.variance_across(point.ray, predicted_range(point, line), normal);
+    return std::min(most, residual * residual / (variance + variance_at(line, point.position)));
+  };
+  Boundary best{.last_of_a = first - 1, .chi2 = 0.0};
+  double balance = 0.0, least = 0.0;
+  for (int k = first; k <= last; ++k) {
+    const double to_b = chi2(points[k], b.fit.line);
+    best.chi2 += to_b;
+    balance += chi2(points[k], a.fit.line) - to_b;
+    if (balance >= least) continue;
+    least = balance;
+    best.last_of_a = k;
   }
-  pieces_.back().first += n;
-  pieces_.back().last += n;
-  merge(points);
+  best.chi2 += least;
+  return best;
 }
 
-/// Each reading between two neighbouring lines goes to the line that explains it.
+/// A piece that its neighbours explain as well, each a part of it, is no line of its own: the few readings round a corner.
+void Segmenter::absorb(const Points& points) {
+  for (std::size_t i = 1; i + 1 < pieces_.size();) {
+    Piece &a = pieces_[i - 1], &piece = pieces_[i], &b = pieces_[i + 1];
+    const bool small = piece.size() <= std::min(a.size(), b.size()) && std::min(a.size(), b.size()) >= params_.min_support;
+    const bool linked = connected(points[a.last], points[piece.first]) && connected(points[piece.last], points[b.first]);
+    const Boundary shared =
+        small && linked ? boundary(points, a, b, piece.first, piece.last) : Boundary{a.last, kNever};
+    const bool explained = shared.chi2 - piece.fit.chi2 <= params_.merge_chi2;  // false for nan
+    if (!(small && linked && explained)) {
+      ++i;
+      continue;
+    }
+    a.last = shared.last_of_a;
+    b.first = shared.last_of_a + 1;
+    a.fit = fit_line(span(points, a.first, a.last), noise_);
+    b.fit = fit_line(span(points, b.first, b.last), noise_);
+    pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+/// Each reading near the boundary of two neighbours goes to the line that explains it.
 void Segmenter::move_boundaries(const Points& points) {
-  std::erase_if(pieces_, [&](const Piece& piece) { return piece.size() < params_.min_support; });
-  if (params_.merge_chi2 <= 0.0) return;
-  const double most = noise_.params.no_weight_from * noise_.params.no_weight_from;
   for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
     Piece &a = pieces_[i], &b = pieces_[i + 1];
-    if (b.first - a.last - 1 > params_.bridged_outliers || !connected(points[a.last], points[b.first])) continue;
-    double balance = 0.0, best = 0.0;
-    int boundary = a.first + 1;
-    for (int k = a.first + 2; k <= b.last - 2; ++k) {
-      const double to_a = residual_sigmas(points[k], a.fit.line, noise_);
-      const double to_b = residual_sigmas(points[k], b.fit.line, noise_);
-      balance += std::min(to_a * to_a, most) - std::min(to_b * to_b, most);
-      if (balance >= best) continue;
-      best = balance;
-      boundary = k;
-    }
-    a.last = boundary;
-    b.first = boundary + 1;
+    if (std::min(a.size(), b.size()) < params_.min_support || !connected(points[a.last], points[b.first])) continue;
+    const int last = boundary(points, a, b, a.first + 2, b.last - 2).last_of_a;
+    if (last == a.last) continue;
+    a.last = last;
+    b.first = last + 1;
+    a.fit = fit_line(span(points, a.first, a.last), noise_);
+    b.fit = fit_line(span(points, b.first, b.last), noise_);
+  }
+}
+
+void Segmenter::settle(const Points& points) {
+  merge(points);
+  absorb(points);
+  move_boundaries(points);
+}
+
+/// A full turn without a break is begun at another piece, so that what met at its ends can be settled, too.
+void Segmenter::turn_pieces(Points& points) {
+  const auto half = static_cast<std::ptrdiff_t>(pieces_.size() / 2);
+  const int shift = pieces_[static_cast<std::size_t>(half)].first;
+  const int n = static_cast<int>(points.size());
+  std::rotate(points.begin(), points.begin() + shift, points.end());
+  std::rotate(pieces_.begin(), pieces_.begin() + half, pieces_.end());
+  for (Piece& piece : pieces_) {
+    const int size = piece.size();
+    piece.first = (piece.first - shift + n) % n;
+    piece.last = piece.first + size - 1;
   }
 }
 
@@ -248,8 +305,24 @@ void Segmenter::keep_lines(const Points& points, std::vector<RangeSegment>& segm
   }
 }
 
+/// Nothing came back beside an end whose wall, had it gone on, would have been in easy reach.
+bool Segmenter::open_beside(std::span<const float> ranges_m, const ScanPoint& end, const LineEstimate& line,
+                            int step) const {
+  if (std::abs(line.normal().dot(end.ray)) < params_.open_sine) return false;
+  if (range_max_ > 0.0 && end.range_m > params_.open_reach * range_max_) return false;
+  const int count = static_cast<int>(ranges_m.size());
+  for (int k = 1; k <= params_.open_beams; ++k) {
+    int beam = end.beam + (clockwise_ ? -k : k) * step;
+    if (turn_ > 0 && (beam < 0 || beam >= count)) beam = (beam % turn_ + turn_) % turn_;
+    if (beam < 0 || beam >= count || !std::isinf(ranges_m[static_cast<std::size_t>(beam)])) return false;
+  }
+  return true;
+}
+
 /// What is beside an end that meets no neighbour. `step`: +1 beyond end b, -1 beyond end a.
-Segmenter::Beside Segmenter::end_beside(const Points& points, const RangeSegment& segment, int end, int step) const {
+Segmenter::Beside Segmenter::end_beside(std::span<const float> ranges_m, const Points& points,
+                                        const RangeSegment& segment, int end, int step) const {
+  if (open_beside(ranges_m, points[end], segment.fit.line, step)) return {SegmentEnd::kOpen, 0.0};
   const int n = static_cast<int>(points.size());
   const auto at = [&](int k) { return turn_ > 0 ? (k % n + n) % n : k; };
   const auto link = [&](int a, int b) { return step > 0 ? connected(points[a], points[b]) : connected(points[b], points[a]); };
@@ -273,7 +346,7 @@ Segmenter::Beside Segmenter::end_beside(const Points& points, const RangeSegment
   return {jump < -params_.break_sigmas ? SegmentEnd::kOccluded : SegmentEnd::kUnseen, jump};
 }
 
-void Segmenter::judge_ends(const Points& points, std::vector<RangeSegment>& segments) const {
+void Segmenter::judge_ends(std::span<const float> ranges_m, const Points& points, std::vector<RangeSegment>& segments) const {
   const std::size_t n = segments.size();
   for (std::size_t i = 0; i < n; ++i) {
     RangeSegment &s = segments[i], &t = segments[(i + 1) % n];
@@ -289,7 +362,8 @@ void Segmenter::judge_ends(const Points& points, std::vector<RangeSegment>& segm
       s.end_b = t.end_a = SegmentEnd::kJoined;
       continue;
     }
-    const Beside beyond = end_beside(points, s, s.last, +1), before = end_beside(points, t, t.first, -1);
+    const Beside beyond = end_beside(ranges_m, points, s, s.last, +1);
+    const Beside before = end_beside(ranges_m, points, t, t.first, -1);
     s.end_b = beyond.end;
     s.jump_b_sigmas = beyond.jump_sigmas;
     t.end_a = before.end;
@@ -302,8 +376,9 @@ void Segmenter::place_ends(std::vector<RangeSegment>& segments) const {
   const std::size_t n = segments.size();
   for (RangeSegment& s : segments) {
     const Eigen::Vector2d along = s.extent.direction();
-    if (s.end_a == SegmentEnd::kFree) s.extent.a -= 0.5 * std::min(s.spacing_a, params_.merge_gap_m) * along;
-    if (s.end_b == SegmentEnd::kFree) s.extent.b += 0.5 * std::min(s.spacing_b, params_.merge_gap_m) * along;
+    const auto free = [](SegmentEnd end) { return end == SegmentEnd::kFree || end == SegmentEnd::kOpen; };
+    if (free(s.end_a)) s.extent.a -= 0.5 * std::min(s.spacing_a, params_.merge_gap_m) * along;
+    if (free(s.end_b)) s.extent.b += 0.5 * std::min(s.spacing_b, params_.merge_gap_m) * along;
   }
   for (std::size_t i = 0; i < n; ++i) {
     RangeSegment &s = segments[i], &t = segments[(i + 1) % n];
@@ -320,18 +395,23 @@ void Segmenter::place_ends(std::vector<RangeSegment>& segments) const {
   }
 }
 
-void Segmenter::segment(Points& points, std::vector<RangeSegment>& segments) {
+void Segmenter::segment(std::span<const float> ranges_m, Points& points, std::vector<RangeSegment>& segments) {
   segments.clear();
   pieces_.clear();
+  std::erase_if(points, [](const ScanPoint& point) { return !(point.range_m < kFarthest); });
   if (clockwise_) std::reverse(points.begin(), points.end());
   if (static_cast<int>(points.size()) < params_.min_support || increment_ <= 0.0) return;
   rotate_to_break(points);
   split_runs(points);
-  merge(points);
-  close_turn(points);
-  move_boundaries(points);
+  if (params_.merge_chi2 > 0.0) {
+    settle(points);
+    if (turn_ > 0 && pieces_.size() > 1 && connected(points.back(), points.front())) {
+      turn_pieces(points);
+      settle(points);
+    }
+  }
   keep_lines(points, segments);
-  judge_ends(points, segments);
+  judge_ends(ranges_m, points, segments);
   place_ends(segments);
 }
 

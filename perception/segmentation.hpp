@@ -23,13 +23,17 @@ struct SegmentationParams {
   double split_sigmas = 3.0;   ///< in expected standard deviations of the point across the chord
   double split_m = 0.0;        ///< > 0: in metres instead, of the single farthest point (Clerentin et al.)
   // Collinear neighbours are one.
-  double merge_chi2 = 9.21;    ///< for 2 degrees of freedom, 99 %; 0: nothing is merged
+  double merge_chi2 = 16.0;    ///< growth by joining two; the place was chosen to part them, so this is 99 % of the largest
+                               ///< of many, not of one with 2 degrees of freedom; 0: nothing is merged
   double merge_gap_m = 0.5;    ///< at most, where beams are missing between them
   // What is kept.
   int min_support = 3;
   double min_sine = 0.09;      ///< of the mean angle between beams and line: flatter is a mixture of near and far
   double corner_sine = 0.26;   ///< sharper junctions lie where the lines meet
-  double joined_sigmas = 3.0;  ///< ends this close are one junction, in expected standard deviations of their distance
+  int open_beams = 3;          ///< empty ones in a row that make an end open,
+  double open_reach = 0.7;     ///< where the wall would have been seen within this share of the largest range
+  double open_sine = 0.35;     ///< and not flatter than this
+  double joined_sigmas = 4.0;  ///< ends this close are one junction, in expected standard deviations of their distance
 };
 
 /// A straight run of range readings.
@@ -54,10 +58,12 @@ class Segmenter {
  public:
   Segmenter(const sensors::RangeFinder& range_finder, const SegmentationParams& params, const LineFitParams& fit_params);
 
-  /// \param points  in beam order; left in counter-clockwise order, those of a full turn rotated so that no segment spans
+  /// \param ranges_m  as measured, by beam: tells empty beams (inf) from missing ones (nan)
+  /// \param points  in beam order, of one scan; those beyond any sensor's reach are left out; left in counter-clockwise order, those of a full turn rotated so that no segment spans
   ///                the ends of the vector.
   /// \param segments  cleared first; counter-clockwise.
-  void segment(std::vector<sensors::ScanPoint>& points, std::vector<RangeSegment>& segments);
+  void segment(std::span<const float> ranges_m, std::vector<sensors::ScanPoint>& points,
+               std::vector<RangeSegment>& segments);
 
   [[nodiscard]] const PointNoise& noise() const { return noise_; }
   [[nodiscard]] double beam_increment() const { return increment_; }
@@ -67,7 +73,7 @@ class Segmenter {
     int first = 0;
     int last = 0;
     LineFit fit;
-    double merge_cost = 0.0;  ///< growth of chi-square by merging with a later one, as a share of what is allowed
+    double merge_cost = 0.0;  ///< growth of chi-square by merging with a later one
     int merge_with = 0;       ///< 0: none, 1: the next, 2: the one after, which skips one or two stray readings
 
     [[nodiscard]] int size() const { return last - first + 1; }
@@ -81,10 +87,12 @@ class Segmenter {
   [[nodiscard]] int split_point(const Points& points, int first, int last) const;
   void merge(const Points& points);
   void rate_merge(const Points& points, std::size_t piece);
-  void close_turn(Points& points);
+  void settle(const Points& points);
+  void absorb(const Points& points);
+  void turn_pieces(Points& points);
   void move_boundaries(const Points& points);
   void keep_lines(const Points& points, std::vector<RangeSegment>& segments) const;
-  void judge_ends(const Points& points, std::vector<RangeSegment>& segments) const;
+  void judge_ends(std::span<const float> ranges_m, const Points& points, std::vector<RangeSegment>& segments) const;
   void place_ends(std::vector<RangeSegment>& segments) const;
 
   [[nodiscard]] std::span<const sensors::ScanPoint> span(const Points& points, int first, int last) const {
@@ -92,18 +100,28 @@ class Segmenter {
   }
   [[nodiscard]] int beams_between(const sensors::ScanPoint& a, const sensors::ScanPoint& b) const;
   [[nodiscard]] bool connected(const sensors::ScanPoint& a, const sensors::ScanPoint& b) const;
+  /// The best boundary between the lines of `a` and `b` for the points first..last, and chi-square with it.
+  struct Boundary {
+    int last_of_a = 0;
+    double chi2 = 0.0;
+  };
+  [[nodiscard]] Boundary boundary(const Points& points, const Piece& a, const Piece& b, int first, int last) const;
   [[nodiscard]] double merge_cost(const Points& points, const Piece& a, const Piece& b) const;
   struct Beside {
     SegmentEnd end = SegmentEnd::kUnseen;
     double jump_sigmas = 0.0;
   };
-  [[nodiscard]] Beside end_beside(const Points& points, const RangeSegment& segment, int end, int step) const;
+  [[nodiscard]] Beside end_beside(std::span<const float> ranges_m, const Points& points, const RangeSegment& segment,
+                                  int end, int step) const;
+  [[nodiscard]] bool open_beside(std::span<const float> ranges_m, const sensors::ScanPoint& end,
+                                 const geometry::LineEstimate& line, int step) const;
 
   PointNoise noise_;
   SegmentationParams params_;
   double increment_ = 0.0;  ///< positive
   bool clockwise_ = false;
   int turn_ = 0;            ///< beams of a full turn; 0 where the scan does not close
+  double range_max_ = 0.0;
   int allowed_beams_ = 1;   ///< from one reading to the next of the same wall
   std::vector<Piece> pieces_;
 };
