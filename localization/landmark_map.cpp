@@ -76,8 +76,8 @@ std::vector<Junction> join_ends(const std::vector<Segment>& walls, double tolera
 void join_interiors(const std::vector<Segment>& walls, double tolerance, std::vector<Junction>& junctions) {
   for (Junction& junction : junctions)
     for (std::size_t w = 0; w < walls.size(); ++w) {
-      const bool ends_here = std::any_of(junction.arms.begin(), junction.arms.end(),
-                                         [w](const Arm& arm) { return arm.wall == w; });
+      const bool ends_here =
+          std::any_of(junction.arms.begin(), junction.arms.end(), [w](const Arm& arm) { return arm.wall == w; });
       if (ends_here || geometry::distance(junction.position, walls[w]) > tolerance) continue;
       const double along = (junction.position - walls[w].a).dot(walls[w].direction());
       if (along <= tolerance || along >= walls[w].length() - tolerance) continue;
@@ -171,7 +171,8 @@ LandmarkMap::LandmarkMap(const geometry::FloorPlan& plan, const LandmarkMapParam
     const auto keep = [&](const WallLandmark& wall) {
       if (wall.length_m >= params_.min_wall_length_m) walls_.push_back(wall);
     };
-    if (straight) keep(whole);
+    if (straight)
+      keep(whole);
     else
       for (const Segment& member : members) keep(wall_through({member.a, member.b}));
   }
@@ -213,9 +214,14 @@ bool LandmarkMap::sees(const Eigen::Vector2d& viewpoint, const Eigen::Vector2d& 
   const double reach = way.norm() - margin_m;
   if (reach <= 0.0) return true;
   const Eigen::Vector2d direction = way.normalized();
-  return std::none_of(surfaces_.begin(), surfaces_.end(), [&](const Segment& surface) {
-    return crossing(viewpoint, direction, surface) < reach;
-  });
+  return std::none_of(surfaces_.begin(), surfaces_.end(),
+                      [&](const Segment& surface) { return crossing(viewpoint, direction, surface) < reach; });
+}
+
+double LandmarkMap::distance_to_surface(const Eigen::Vector2d& point) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Segment& surface : surfaces_) nearest = std::min(nearest, geometry::distance(point, surface));
+  return nearest;
 }
 
 double LandmarkMap::cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_range_m) const {

@@ -13,8 +13,8 @@
 namespace credo::localization {
 
 struct LandmarkMapParams {
-  double join_tolerance_m = 0.05;     ///< wall ends closer than this, or than 3 uncertainties, are one junction
-  double min_wall_length_m = 0.3;     ///< shorter walls hide what is behind them, but are no landmarks
+  double join_tolerance_m = 0.05;        ///< wall ends closer than this, or than 3 uncertainties, are one junction
+  double min_wall_length_m = 0.3;        ///< shorter walls hide what is behind them, but are no landmarks
   double max_collinear_turn_rad = 0.09;  ///< joined walls that turn by less, and stay on the line, are one wall
   double min_corner_angle_rad = 0.7854;  ///< a junction's angle for a corner or an edge: 45 ..
   double max_corner_angle_rad = 2.3562;  ///< .. 135 degrees
@@ -34,8 +34,8 @@ struct WallLandmark {
 /// Where walls meet, or one ends; or a mark without relief.
 struct PointLandmark {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  bool vertical = false;        ///< a mark without relief: type `other` from wherever it is seen
-  std::vector<double> arms;     ///< directions in which walls leave the junction, growing, (-pi, pi] [rad]
+  bool vertical = false;     ///< a mark without relief: type `other` from wherever it is seen
+  std::vector<double> arms;  ///< directions in which walls leave the junction, growing, (-pi, pi] [rad]
 };
 
 /// The four lists of the theoretical map (Clerentin et al., sec. 4.2) as seen from a pose: a junction is a corner from
@@ -67,6 +67,9 @@ class LandmarkMap {
 
   /// Whether no wall of the plan stands between the viewpoint and the target, `margin_m` before the target excepted.
   [[nodiscard]] bool sees(const Eigen::Vector2d& viewpoint, const Eigen::Vector2d& target, double margin_m) const;
+
+  /// Distance of a point to the nearest wall of the plan; infinity without walls. [m]
+  [[nodiscard]] double distance_to_surface(const Eigen::Vector2d& point) const;
 
   /// Distance to the first wall of the plan along a ray, up to `max_range_m`; infinity where there is none. [m]
   [[nodiscard]] double cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_range_m) const;

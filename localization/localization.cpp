@@ -19,8 +19,8 @@ const char* to_string(Status status) {
 }
 
 std::ostream& operator<<(std::ostream& out, const Localization& localization) {
-  return out << to_string(localization.status) << " at " << localization.estimate << ", belief "
-             << localization.belief << ", matched " << localization.matched << " of " << localization.detected;
+  return out << to_string(localization.status) << " at " << localization.estimate << ", belief " << localization.belief
+             << ", matched " << localization.matched << " of " << localization.detected;
 }
 
 }  // namespace credo::localization

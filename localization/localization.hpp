@@ -35,9 +35,9 @@ struct Localization {
   evidence::BinaryMass belief;      ///< in "the localization is correct" (Clerentin et al., sec. 4.5)
   double conflict = 0.0;            ///< between its criteria
   Status status = Status::kInitializing;
-  int detected = 0;  ///< primitives in the scene
-  int matched = 0;   ///< of them, matched to the map and used for the pose
-  int tracked = 0;   ///< tracks alive
+  int detected = 0;                    ///< primitives in the scene
+  int matched = 0;                     ///< of them, matched to the map and used for the pose
+  int tracked = 0;                     ///< tracks alive
   std::vector<Hypothesis> hypotheses;  ///< empty unless there is more than one
   std::string reason;                  ///< why it is unsure, in words; empty while localized
 };

@@ -15,8 +15,8 @@ using evidence::BinaryMass;
 
 evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& evidence,
                                               const LocalizationBeliefParams& params) {
-  const double ratio = evidence.detected > 0.0 ? evidence.explained / evidence.detected
-                                               : std::numeric_limits<double>::quiet_NaN();
+  const double ratio =
+      evidence.detected > 0.0 ? evidence.explained / evidence.detected : std::numeric_limits<double>::quiet_NaN();
   const std::array criteria{params.count(evidence.matched), params.ratio(ratio)};
   std::vector<evidence::Part> parts;
   for (const tracking::Track& track : evidence.tracks) {
@@ -41,8 +41,10 @@ void judge(Localization& localization, bool camera_seen, bool range_finder_seen,
   };
   if (!camera_seen) because("camera dark or missing");
   if (!range_finder_seen) because("range finder missing");
-  if (localization.matched == 0) because("nothing matches the plan: the pose is predicted");
-  else if (localization.matched < 3) because("few landmarks");
+  if (localization.matched == 0)
+    because("nothing matches the plan: the pose is predicted");
+  else if (localization.matched < 3)
+    because("few landmarks");
   if (belief.no > belief.yes) because("most of what is seen is not in the plan");
   if (sigma > params.max_position_sigma_m) because("position too uncertain");
   if (std::sqrt(P(2, 2)) > params.max_heading_sigma_rad) because("heading too uncertain");

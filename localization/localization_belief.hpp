@@ -17,11 +17,19 @@ namespace credo::localization {
 struct LocalizationBeliefParams {
   perception::Method method = perception::Method::kDefault;
   /// On the number of primitives that the pose rests on.
-  evidence::RampBelief count{.max_yes = 0.8, .yes_full_until = 6.0, .yes_zero_from = 2.0,
-                             .max_no = 0.6, .no_zero_until = 3.0, .no_full_from = 1.0};
+  evidence::RampBelief count{.max_yes = 0.8,
+                             .yes_full_until = 6.0,
+                             .yes_zero_from = 2.0,
+                             .max_no = 0.6,
+                             .no_zero_until = 3.0,
+                             .no_full_from = 1.0};
   /// On matched / detected.
-  evidence::RampBelief ratio{.max_yes = 0.8, .yes_full_until = 0.8, .yes_zero_from = 0.4,
-                             .max_no = 0.6, .no_zero_until = 0.5, .no_full_from = 0.2};
+  evidence::RampBelief ratio{.max_yes = 0.8,
+                             .yes_full_until = 0.8,
+                             .yes_zero_from = 0.4,
+                             .max_no = 0.6,
+                             .no_zero_until = 0.5,
+                             .no_full_from = 0.2};
   double wall_reliability = 0.3;   ///< of a wall's track as a criterion
   double other_reliability = 0.6;  ///< of a corner's, an edge's, another's: the strong azimuths
 };
@@ -34,13 +42,14 @@ struct LocalizationEvidence {
   std::span<const tracking::Track> tracks;
 };
 
-/// Mass on "the localization is correct". The tracks that were matched in this acquisition and have a landmark take part.
+/// Mass on "the localization is correct". The tracks that were matched in this acquisition and have a landmark take
+/// part.
 [[nodiscard]] evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& evidence,
                                                             const LocalizationBeliefParams& params = {});
 
 struct StatusParams {
-  double min_belief_yes = 0.5;           ///< localized asks for more
-  double max_position_sigma_m = 0.125;   ///< of the worst direction: two of them stay within 0.25 m
+  double min_belief_yes = 0.5;            ///< localized asks for more
+  double max_position_sigma_m = 0.125;    ///< of the worst direction: two of them stay within 0.25 m
   double max_heading_sigma_rad = 0.0436;  ///< 2.5 degrees: two of them stay within 5 degrees
 };
 

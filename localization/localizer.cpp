@@ -27,6 +27,13 @@ using tracking::Track;
 /// The start of a run without a plan or without an initial pose: the origin of its own frame, exactly.
 constexpr double kOriginSigma = 1e-6;
 
+/// Where something lies that is no landmark.
+enum class PlanAgreement {
+  kOnPlan,  ///< on a wall of the plan
+  kBefore,  ///< where the plan has free space
+  kBehind   ///< behind a wall of the plan: it cannot be seen there
+};
+
 /// A pose at an acquisition, with the belief in it.
 struct Fix {
   Timestamp time = 0;
@@ -54,8 +61,12 @@ LocalizerParams LocalizerParams::with_method(perception::Method chosen) const {
 struct Localizer::State {
   State(const geometry::FloorPlan& plan, const sensors::Rig& rig, const std::optional<PoseEstimate>& initial,
         const LocalizerParams& p)
-      : params(p.with_method(p.method)), map(plan, params.map), matcher(map, params.matching),
-        solver(rig, params.solver), tracker(params.tracker), absolute(initial.has_value() && !map.empty()) {
+      : params(p.with_method(p.method)),
+        map(plan, params.map),
+        matcher(map, params.matching),
+        solver(rig, params.solver),
+        tracker(params.tracker),
+        absolute(initial.has_value() && !map.empty()) {
     if (absolute) {
       current.pose = initial->pose;
       current.independent = initial->covariance;
@@ -69,10 +80,9 @@ struct Localizer::State {
   MapMatcher matcher;
   PoseSolver solver;
   tracking::Tracker tracker;
-  bool absolute;                 ///< poses are in the map frame, not relative to the start
+  bool absolute;  ///< poses are in the map frame, not relative to the start
   bool started = false;
   SplitPose current;
-  Matrix3d calibration = Matrix3d::Zero();
   Fix latest, before;
   sensors::MotionPath path;
   std::map<int, int> contradictions;  ///< in a row, by track id
@@ -85,17 +95,19 @@ struct Localizer::State {
   std::vector<MapMatch> new_matches;
 
   [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
-  [[nodiscard]] PoseEstimate estimate() const { return {current.pose, current.covariance() + calibration}; }
+  [[nodiscard]] PoseEstimate estimate() const { return {current.pose, current.covariance()}; }
   void expect_landmarks(const SplitPose& predicted);
   void observe_tracks(const Scene& scene, const std::vector<Match>& matches);
   void observe_landmark(const Scene& scene, int primitive, LandmarkId landmark, int track);
   void list_unmatched(const Scene& scene);
   void match_map(const Scene& scene, const SplitPose& predicted);
-  void solve(const SplitPose& predicted);
+  void solve(const Scene& scene, const SplitPose& predicted);
   void label_tracks(const std::vector<Match>& matches);
   void start_tracks(const Scene& scene);
   void drop_contradicting_landmarks(const PoseSolution& solution);
   void update_motion_only(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
+  [[nodiscard]] PlanAgreement agreement_of(const Primitive& primitive) const;
+  [[nodiscard]] LocalizationEvidence weigh(const Scene& scene) const;
   [[nodiscard]] Localization report(const Scene& scene) const;
 };
 
@@ -124,15 +136,12 @@ void Localizer::State::expect_landmarks(const SplitPose& predicted) {
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     if (tracks[t].landmark == kNoLandmark || map.is_wall(tracks[t].landmark)) continue;
     const Vector2d p = T_base_map * map.point(tracks[t].landmark).position;
-    const double squared = p.squaredNorm();
-    if (squared < 1e-4) continue;
-    const Vector2d aside(-p.y() / squared, p.x() / squared);
-    Eigen::Matrix<double, 2, 3> J;
-    J.leftCols<2>() = -predicted.pose.rotation().transpose();
-    J.col(2) = Vector2d(p.y(), -p.x());
-    const Eigen::RowVector3d by_pose = aside.transpose() * J;
-    const double plan = map.uncertainty_m() * aside.norm();
-    tracker.expect(static_cast<int>(t), std::atan2(p.y(), p.x()), std::sqrt(by_pose.dot(by_pose * P) + plan * plan));
+    Eigen::Matrix<double, 2, 3> by_pose;
+    by_pose.leftCols<2>() = -predicted.pose.rotation().transpose();
+    by_pose.col(2) = Vector2d(p.y(), -p.x());
+    const double plan = map.uncertainty_m() * map.uncertainty_m();
+    tracker.expect_point(static_cast<int>(t), p,
+                         by_pose * P * by_pose.transpose() + plan * Eigen::Matrix2d::Identity());
   }
 }
 
@@ -140,15 +149,16 @@ void Localizer::State::observe_landmark(const Scene& scene, int primitive, Landm
   const Primitive& seen = scene.primitives[static_cast<std::size_t>(primitive)];
   const bool wall = map.is_wall(landmark);
   if (wall != (seen.type == PrimitiveType::kWall)) return;
-  Observation o = wall ? observe_wall(seen, map.wall(landmark), current.pose, map.uncertainty_m(), params.observations)
-                       : observe_point(scene, seen, map.point(landmark), wall_in_use, map.uncertainty_m(),
-                                       params.observations);
+  Observation o =
+      wall ? observe_wall(seen, map.wall(landmark), current.pose, map.uncertainty_m(), params.observations)
+           : observe_point(scene, seen, map.point(landmark), wall_in_use, map.uncertainty_m(), params.observations);
   o.landmark = landmark;
   o.primitive = primitive;
   o.track = track;
   observations.push_back(o);
   if (!wall) return;
-  for (int s = seen.first_segment; s >= 0 && s <= seen.last_segment; ++s) wall_in_use[static_cast<std::size_t>(s)] = true;
+  for (int s = seen.first_segment; s >= 0 && s <= seen.last_segment; ++s)
+    wall_in_use[static_cast<std::size_t>(s)] = true;
 }
 
 /// What the tracks continue; walls first, so that points know which walls are in use.
@@ -175,20 +185,19 @@ void Localizer::State::list_unmatched(const Scene& scene) {
     if (!used[p]) unmatched.push_back(static_cast<int>(p));
 }
 
-void Localizer::State::solve(const SplitPose& predicted) {
-  const PoseSolution& solution = solver.solve(predicted, observations);
-  current = solution.pose;
-  if (!observations.empty()) calibration = solution.calibration;
+void Localizer::State::solve(const Scene& scene, const SplitPose& predicted) {
+  current = solver.solve(predicted, observations, scene.carry_covariance).pose;
 }
 
-/// What continues no track of the map is matched to the map, walls before points, from a pose that every round knows better.
+/// What continues no track of the map is matched to the map, walls before points, from a pose that every round knows
+/// better.
 void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted) {
   const auto add = [&](const std::vector<MapMatch>& found) {
     for (const MapMatch& match : found) {
       observe_landmark(scene, match.primitive, match.landmark, -1);
       new_matches.push_back(match);
     }
-    if (!found.empty()) solve(predicted);
+    if (!found.empty()) solve(scene, predicted);
     return !found.empty();
   };
   new_matches.clear();
@@ -262,8 +271,51 @@ void Localizer::State::update_motion_only(const Scene& scene, const std::vector<
     observations.back().primitive = match.primitive;
   }
   const SplitPose prior{motion.pose, motion.covariance, Matrix3d::Zero()};
-  const PoseSolution& solution = solver.solve(prior, observations);
+  const PoseSolution& solution = solver.solve(prior, observations, scene.carry_covariance);
   current = moved(current, {solution.pose.pose, solution.pose.covariance()});
+}
+
+/// What the belief rests on. Under the default method a primitive counts against the localization as far as the plan
+/// denies it: in full where it stands behind a wall, little where something may have been put before one, and not at
+/// all where it lies on a wall of the plan, as the face of a curve or a mark that the plan does not list does.
+LocalizationEvidence Localizer::State::weigh(const Scene& scene) const {
+  LocalizationEvidence evidence;
+  evidence.tracks = tracker.tracks();
+  std::vector<bool> explained(scene.primitives.size(), false);
+  for (std::size_t k = 0; k < observations.size(); ++k)
+    if (!solver.solution().outlier[k]) explained[static_cast<std::size_t>(observations[k].primitive)] = true;
+  for (std::size_t p = 0; p < explained.size(); ++p) {
+    const Primitive& primitive = scene.primitives[p];
+    evidence.matched += explained[p] ? 1 : 0;
+    if (params.method == perception::Method::kPaper) {
+      evidence.detected += 1.0;
+      evidence.explained += explained[p] ? 1.0 : 0.0;
+      continue;
+    }
+    if (primitive.bearing_only) continue;
+    const double believed = primitive.existence.pignistic();
+    const PlanAgreement agreement = explained[p] ? PlanAgreement::kOnPlan : agreement_of(primitive);
+    if (agreement == PlanAgreement::kOnPlan) {
+      if (primitive.type == PrimitiveType::kOther && !explained[p]) continue;
+      evidence.detected += believed;
+      evidence.explained += believed;
+    } else {
+      evidence.detected += believed * (agreement == PlanAgreement::kBefore ? params.unmapped_weight : 1.0);
+    }
+  }
+  return evidence;
+}
+
+PlanAgreement Localizer::State::agreement_of(const Primitive& primitive) const {
+  const Vector2d viewpoint = current.pose.translation();
+  const Vector2d seen = current.pose * primitive.position;
+  const Matrix3d P = current.covariance();
+  const double sigma =
+      std::sqrt(P(0, 0) + P(1, 1) + P(2, 2) * primitive.range_m * primitive.range_m +
+                primitive.sigma_range_m * primitive.sigma_range_m + map.uncertainty_m() * map.uncertainty_m());
+  const double tolerance = std::max(params.on_plan_sigmas * sigma, params.on_plan_m);
+  if (map.distance_to_surface(seen) <= tolerance) return PlanAgreement::kOnPlan;
+  return map.sees(viewpoint, seen, tolerance) ? PlanAgreement::kBefore : PlanAgreement::kBehind;
 }
 
 Localization Localizer::State::report(const Scene& scene) const {
@@ -286,7 +338,8 @@ void Localizer::with_path(sensors::Acquisition& acquisition) {
   State& s = *state_;
   if (acquisition.path.empty() && s.started) {
     const Pose2 step = s.predicted_motion(std::nullopt, acquisition.time).pose;
-    acquisition.path = sensors::MotionPath({{s.latest.time, {}}, {std::max(acquisition.time, s.latest.time + 1), step}});
+    acquisition.path =
+        sensors::MotionPath({{s.latest.time, {}}, {std::max(acquisition.time, s.latest.time + 1), step}});
   }
   s.path = acquisition.path;
 }
@@ -297,7 +350,7 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   const bool moves = s.started;
   const PoseEstimate step = s.predicted_motion(motion, scene.time);
   const SplitPose predicted = moves ? moved(s.current, step) : s.current;
-  s.tracker.predict(s.params.method == perception::Method::kDefault && moves ? motion : std::nullopt);
+  s.tracker.predict(s.params.method == perception::Method::kDefault && moves ? std::optional(step) : std::nullopt);
   if (s.absolute) s.expect_landmarks(predicted);
 
   // 2. Associate the primitives with the tracks.
@@ -307,10 +360,13 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   if (s.absolute) {
     // 3. The pose from what is matched; 4. the map for what has appeared, and the pose again.
     s.current = predicted;
+    for (const Match& match :
+         matches)  // a wall's track that goes on as a junction, or the reverse, is another landmark
+      if (match.transition) s.tracker.relabel(match.track, kNoLandmark);
     s.observe_tracks(scene, matches);
-    s.solve(predicted);
+    s.solve(scene, predicted);
     s.match_map(scene, predicted);
-    const PoseSolution& solution = s.solver.solve(predicted, s.observations);
+    const PoseSolution& solution = s.solver.solution();
     s.label_tracks(matches);
     // 5. Start tracks, let go of landmarks that contradict the pose.
     s.start_tracks(scene);
@@ -318,19 +374,7 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
     s.tracker.update(scene);
     // 6. Beliefs and status.
     fix = s.report(scene);
-    LocalizationEvidence evidence;
-    evidence.tracks = s.tracker.tracks();
-    std::vector<bool> explained(scene.primitives.size(), false);
-    for (std::size_t k = 0; k < s.observations.size(); ++k)
-      if (!solution.outlier[k]) explained[static_cast<std::size_t>(s.observations[k].primitive)] = true;
-    for (std::size_t p = 0; p < explained.size(); ++p) {
-      const Primitive& primitive = scene.primitives[p];
-      evidence.matched += explained[p] ? 1 : 0;
-      if (primitive.bearing_only) continue;
-      const double weight = s.params.method == perception::Method::kPaper ? 1.0 : primitive.existence.pignistic();
-      evidence.detected += weight;
-      if (explained[p]) evidence.explained += weight;
-    }
+    const LocalizationEvidence evidence = s.weigh(scene);
     const evidence::FusedBinaryMass belief = localization_belief(evidence, s.params.belief);
     fix.belief = belief.mass;
     fix.conflict = belief.conflict;
@@ -360,7 +404,8 @@ evidence::Believed<PoseEstimate> Localizer::pose_at(Timestamp time) const {
   estimate.pose = anchor.estimate.pose * s.path.motion(anchor.time, time);
   if (!between) return {estimate, anchor.belief};
   // What the path from the last fix misses of this one is spread over the way.
-  const double share = sensors::seconds_between(s.before.time, time) / sensors::seconds_between(s.before.time, s.latest.time);
+  const double share =
+      sensors::seconds_between(s.before.time, time) / sensors::seconds_between(s.before.time, s.latest.time);
   const Pose2 arrived = s.before.estimate.pose * s.path.motion(s.before.time, s.latest.time);
   const Pose2 missed = arrived.inverse() * s.latest.estimate.pose;
   estimate.pose = estimate.pose * geometry::interpolate({}, missed, share);
@@ -370,6 +415,8 @@ evidence::Believed<PoseEstimate> Localizer::pose_at(Timestamp time) const {
 }
 
 const std::vector<Track>& Localizer::tracks() const { return state_->tracker.tracks(); }
+const std::vector<Observation>& Localizer::observations() const { return state_->observations; }
+const PoseSolution& Localizer::solution() const { return state_->solver.solution(); }
 const LandmarkMap& Localizer::map() const { return state_->map; }
 const LocalizerParams& Localizer::params() const { return state_->params; }
 

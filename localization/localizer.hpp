@@ -21,7 +21,7 @@ namespace credo::localization {
 struct ConstantVelocityParams {
   double translation_sigma_share = 0.5;  ///< of the distance that the velocity predicts
   double translation_sigma_m = 0.10;
-  double rotation_sigma_share = 0.5;     ///< of the turn that the velocity predicts
+  double rotation_sigma_share = 0.5;  ///< of the turn that the velocity predicts
   double rotation_sigma_rad = 0.10;
 };
 
@@ -36,6 +36,9 @@ struct LocalizerParams {
   StatusParams status;
   ConstantVelocityParams constant_velocity;
   int matching_rounds = 3;         ///< map matching and pose in turn: each round knows the pose better
+  double on_plan_sigmas = 3.0;     ///< something this near to a wall of the plan, or
+  double on_plan_m = 0.05;         ///< this near, lies on it
+  double unmapped_weight = 0.25;   ///< of something in the plan's free space, against the localization
   int contradictions_allowed = 1;  ///< a track that contradicts the pose more often in a row loses its landmark
 
   /// The parameters with `method` handed down to every part.
@@ -47,25 +50,28 @@ class Localizer {
  public:
   /// \param plan     empty: there is no plan, and poses are relative to the start with status initializing
   /// \param initial  the manual initial matching; absent: likewise relative to the start
-  Localizer(const geometry::FloorPlan& plan, const sensors::Rig& rig, const std::optional<geometry::PoseEstimate>& initial,
-            const LocalizerParams& params = {});
+  Localizer(const geometry::FloorPlan& plan, const sensors::Rig& rig,
+            const std::optional<geometry::PoseEstimate>& initial, const LocalizerParams& params = {});
   ~Localizer();
   Localizer(Localizer&&) noexcept;
   Localizer& operator=(Localizer&&) noexcept;
 
-  /// Before a scene is made of it: gives an acquisition without odometry the path that the latest velocity predicts, and
-  /// remembers the path for pose_at.
+  /// Before a scene is made of it: gives an acquisition without odometry the path that the latest velocity predicts,
+  /// and remembers the path for pose_at.
   void with_path(sensors::Acquisition& acquisition);
 
   /// One scene. `motion` is Acquisition::motion.
   Localization update(const perception::Scene& scene, const std::optional<geometry::PoseEstimate>& motion);
 
-  /// The pose at any time between the last two updates, and shortly before or after; with its covariance and the belief.
-  /// Vacuous belief before the first update.
+  /// The pose at any time between the last two updates, and shortly before or after; with its covariance and the
+  /// belief. Vacuous belief before the first update.
   [[nodiscard]] evidence::Believed<geometry::PoseEstimate> pose_at(sensors::Timestamp time) const;
 
   [[nodiscard]] const std::vector<tracking::Track>& tracks() const;
   [[nodiscard]] const LandmarkMap& map() const;
+  /// What the latest pose rests on, and what came of each observation (PoseSolution::outlier).
+  [[nodiscard]] const std::vector<Observation>& observations() const;
+  [[nodiscard]] const PoseSolution& solution() const;
   [[nodiscard]] const LocalizerParams& params() const;
 
  private:

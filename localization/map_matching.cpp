@@ -41,9 +41,7 @@ Eigen::Matrix<double, 2, 3> base_coordinates_by_pose(const geometry::Pose2& pose
 }
 
 /// How far [low, high] reaches beyond [0, length]. [m]
-double excess_of(double low, double high, double length) {
-  return std::max({0.0, -low, high - length});
-}
+double excess_of(double low, double high, double length) { return std::max({0.0, -low, high - length}); }
 
 }  // namespace
 
@@ -68,13 +66,14 @@ BinaryMass MapMatcher::wall_evidence(const Primitive& wall, const WallLandmark& 
   if (high < 0.0 || low > landmark.length_m) return kDenied;
   const double u = map_->uncertainty_m();
   const Matrix2d plan = landmark.plan_covariance(std::clamp(at, 0.0, landmark.length_m), u);
-  const double sigma_turn = std::sqrt(wall.line.sigma_angle * wall.line.sigma_angle + pose.covariance(2, 2) + plan(1, 1));
+  const double sigma_turn =
+      std::sqrt(wall.line.sigma_angle * wall.line.sigma_angle + pose.covariance(2, 2) + plan(1, 1));
   // Across the map's line: n^T (t + R c), by the pose: (n_x, n_y, n^T R turned(c)).
   const Vector2d lever = centroid - T.translation();
   const Eigen::Vector3d by_pose(landmark.normal().x(), landmark.normal().y(),
                                 landmark.normal().dot(Vector2d(-lever.y(), lever.x())));
-  const double sigma_across = std::sqrt(wall.line.sigma_across * wall.line.sigma_across +
-                                        by_pose.dot(pose.covariance * by_pose) + plan(0, 0));
+  const double sigma_across =
+      std::sqrt(wall.line.sigma_across * wall.line.sigma_across + by_pose.dot(pose.covariance * by_pose) + plan(0, 0));
   const double along_variance = landmark.direction.dot(pose.covariance.topLeftCorner<2, 2>() * landmark.direction);
   const double sigma_end = std::sqrt(along_variance + u * u + params_.wall_end_sigma_m * params_.wall_end_sigma_m);
   const std::array criteria{params_.wall_angle(turn / sigma_turn), params_.wall_across(across / sigma_across),
@@ -98,7 +97,8 @@ BinaryMass MapMatcher::point_evidence(const perception::Scene& scene, const Prim
   }
   const Vector2d ahead = way / range, aside(-ahead.y(), ahead.x());
   const Matrix2d& C = landmark.covariance_in_base;
-  const double sigma_off = std::sqrt(aside.dot(C * aside) / (range * range) + point.sigma_azimuth * point.sigma_azimuth);
+  const double sigma_off =
+      std::sqrt(aside.dot(C * aside) / (range * range) + point.sigma_azimuth * point.sigma_azimuth);
   std::array<BinaryMass, 3> criteria{params_.point_azimuth(off / sigma_off), BinaryMass::vacuous(),
                                      same_type ? BinaryMass::vacuous() : params_.other_type};
   if (!point.bearing_only) {
@@ -158,7 +158,8 @@ void MapMatcher::list_visible_points(const PoseEstimate& pose, std::span<const t
     if (std::find(taken.begin(), taken.end(), id) != taken.end()) continue;
     const auto type = map_->type_from(point, viewpoint);
     if (!type || !map_->sees(viewpoint, point.position, params_.visibility_margin_m)) continue;
-    VisiblePoint visible{.id = id, .type = *type, .position_in_base = T_base_map * point.position, .covariance_in_base = {}};
+    VisiblePoint visible{
+        .id = id, .type = *type, .position_in_base = T_base_map * point.position, .covariance_in_base = {}};
     const auto J = base_coordinates_by_pose(pose.pose, visible.position_in_base);
     visible.covariance_in_base = J * pose.covariance * J.transpose() + u * u * Matrix2d::Identity();
     visible_.push_back(visible);

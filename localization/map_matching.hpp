@@ -13,36 +13,77 @@
 
 namespace credo::localization {
 
-/// The default's belief shapes; x is an innovation in its expected standard deviations (pose, plan and sensor together).
+/// The default's belief shapes; x is an innovation in its expected standard deviations (pose, plan and sensor
+/// together).
 struct MapMatchingParams {
   perception::Method method = perception::Method::kDefault;
-  evidence::RampBelief wall_angle{.max_yes = 0.8, .yes_full_until = 1.0, .yes_zero_from = 4.0,
-                                  .max_no = 0.9, .no_zero_until = 3.0, .no_full_from = 6.0};
-  evidence::RampBelief wall_across{.max_yes = 0.8, .yes_full_until = 1.0, .yes_zero_from = 4.0,
-                                   .max_no = 0.9, .no_zero_until = 3.0, .no_full_from = 6.0};
+  evidence::RampBelief wall_angle{.max_yes = 0.8,
+                                  .yes_full_until = 1.0,
+                                  .yes_zero_from = 4.0,
+                                  .max_no = 0.9,
+                                  .no_zero_until = 3.0,
+                                  .no_full_from = 6.0};
+  evidence::RampBelief wall_across{.max_yes = 0.8,
+                                   .yes_full_until = 1.0,
+                                   .yes_zero_from = 4.0,
+                                   .max_no = 0.9,
+                                   .no_zero_until = 3.0,
+                                   .no_full_from = 6.0};
   /// How far the observation reaches beyond the map's wall. Shorter is ignorance: something may stand before it.
-  evidence::RampBelief wall_excess{.max_yes = 0.0, .yes_full_until = 0.0, .yes_zero_from = 1.0,
-                                   .max_no = 0.9, .no_zero_until = 3.0, .no_full_from = 8.0};
+  evidence::RampBelief wall_excess{.max_yes = 0.0,
+                                   .yes_full_until = 0.0,
+                                   .yes_zero_from = 1.0,
+                                   .max_no = 0.9,
+                                   .no_zero_until = 3.0,
+                                   .no_full_from = 8.0};
   double wall_end_sigma_m = 0.05;  ///< of an observed wall's end: beam spacing, mixed readings, skirting
-  evidence::RampBelief point_range{.max_yes = 0.8, .yes_full_until = 1.0, .yes_zero_from = 4.0,
-                                   .max_no = 0.9, .no_zero_until = 3.0, .no_full_from = 6.0};
-  evidence::RampBelief point_azimuth{.max_yes = 0.8, .yes_full_until = 1.0, .yes_zero_from = 4.0,
-                                     .max_no = 0.9, .no_zero_until = 3.0, .no_full_from = 6.0};
+  evidence::RampBelief point_range{.max_yes = 0.8,
+                                   .yes_full_until = 1.0,
+                                   .yes_zero_from = 4.0,
+                                   .max_no = 0.9,
+                                   .no_zero_until = 3.0,
+                                   .no_full_from = 6.0};
+  evidence::RampBelief point_azimuth{.max_yes = 0.8,
+                                     .yes_full_until = 1.0,
+                                     .yes_zero_from = 4.0,
+                                     .max_no = 0.9,
+                                     .no_zero_until = 3.0,
+                                     .no_full_from = 6.0};
   evidence::BinaryMass other_type{.yes = 0.0, .no = 0.3, .unknown = 0.7};  ///< seen under another type than expected
-  double min_margin = 0.05;        ///< of the pignistic probability over the second candidate
+  double min_margin = 0.05;           ///< of the pignistic probability over the second candidate
   double visibility_margin_m = 0.08;  ///< a landmark this much behind a wall of the plan still counts as visible
 
   // The paper's, absolute (Clerentin et al., sec. 4.2; the breakpoints are ours, docs/equations.md).
-  evidence::RampBelief paper_wall_angle_deg{.max_yes = 0.9, .yes_full_until = 0.0, .yes_zero_from = 10.0,
-                                            .max_no = 0.9, .no_zero_until = 10.0, .no_full_from = 25.0};
-  evidence::RampBelief paper_wall_length_m{.max_yes = 0.6, .yes_full_until = 0.0, .yes_zero_from = 0.5,
-                                           .max_no = 0.4, .no_zero_until = 0.5, .no_full_from = 2.0};
-  evidence::RampBelief paper_wall_center_m{.max_yes = 0.8, .yes_full_until = 0.0, .yes_zero_from = 0.5,
-                                           .max_no = 0.8, .no_zero_until = 0.5, .no_full_from = 1.5};
-  evidence::RampBelief paper_point_range_m{.max_yes = 0.8, .yes_full_until = 0.0, .yes_zero_from = 0.3,
-                                           .max_no = 0.8, .no_zero_until = 0.3, .no_full_from = 0.8};
-  evidence::RampBelief paper_point_azimuth_deg{.max_yes = 0.8, .yes_full_until = 0.0, .yes_zero_from = 5.0,
-                                               .max_no = 0.8, .no_zero_until = 5.0, .no_full_from = 12.0};
+  evidence::RampBelief paper_wall_angle_deg{.max_yes = 0.9,
+                                            .yes_full_until = 0.0,
+                                            .yes_zero_from = 10.0,
+                                            .max_no = 0.9,
+                                            .no_zero_until = 10.0,
+                                            .no_full_from = 25.0};
+  evidence::RampBelief paper_wall_length_m{.max_yes = 0.6,
+                                           .yes_full_until = 0.0,
+                                           .yes_zero_from = 0.5,
+                                           .max_no = 0.4,
+                                           .no_zero_until = 0.5,
+                                           .no_full_from = 2.0};
+  evidence::RampBelief paper_wall_center_m{.max_yes = 0.8,
+                                           .yes_full_until = 0.0,
+                                           .yes_zero_from = 0.5,
+                                           .max_no = 0.8,
+                                           .no_zero_until = 0.5,
+                                           .no_full_from = 1.5};
+  evidence::RampBelief paper_point_range_m{.max_yes = 0.8,
+                                           .yes_full_until = 0.0,
+                                           .yes_zero_from = 0.3,
+                                           .max_no = 0.8,
+                                           .no_zero_until = 0.3,
+                                           .no_full_from = 0.8};
+  evidence::RampBelief paper_point_azimuth_deg{.max_yes = 0.8,
+                                               .yes_full_until = 0.0,
+                                               .yes_zero_from = 5.0,
+                                               .max_no = 0.8,
+                                               .no_zero_until = 5.0,
+                                               .no_full_from = 12.0};
 };
 
 /// A primitive that is believed to be a landmark.
@@ -88,8 +129,8 @@ class MapMatcher {
   MapMatchingParams params_;
   evidence::OpenWorldMatcher matcher_;
   std::vector<VisiblePoint> visible_;
-  std::vector<evidence::BinaryMass> evidence_;       ///< one row: a primitive against its candidates
-  std::vector<tracking::LandmarkId> candidates_;     ///< of that row
+  std::vector<evidence::BinaryMass> evidence_;    ///< one row: a primitive against its candidates
+  std::vector<tracking::LandmarkId> candidates_;  ///< of that row
   std::vector<MapMatch> claims_;
   std::vector<MapMatch> matches_;
 };

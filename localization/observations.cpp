@@ -26,8 +26,8 @@ Matrix2d line_noise(const geometry::LineEstimate& line, const ObservationParams&
 
 Observation observe_wall(const Primitive& wall, const WallLandmark& landmark, const geometry::Pose2& pose,
                          double plan_uncertainty_m, const ObservationParams& params) {
-  const double at = std::clamp((pose * wall.line.centroid - landmark.extent.a).dot(landmark.direction), 0.0,
-                               landmark.length_m);
+  const double at =
+      std::clamp((pose * wall.line.centroid - landmark.extent.a).dot(landmark.direction), 0.0, landmark.length_m);
   Observation o;
   o.kind = ObservationKind::kWall;
   o.map_point = landmark.extent.a;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace credo::localization {
 namespace {
@@ -18,13 +19,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using geometry::Pose2;
-using Jacobian = Eigen::Matrix<double, 2, 3>;
+using State = PoseState;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Mounting errors of the camera and of the range finder: yaw, x, y of each.
-constexpr int kCalibrationParameters = 6;
-using CalibrationJacobian = Eigen::Matrix<double, 2, kCalibrationParameters>;
-
-Pose2 pose_of(const Vector3d& x) { return {x(0), x(1), x(2)}; }
+Pose2 pose_of(const State::Vector& x) { return {x(State::kX), x(State::kY), x(State::kTheta)}; }
 Vector3d vector_of(const Pose2& p) { return {p.x, p.y, p.theta}; }
 Vector2d turned(const Vector2d& v) { return {-v.y(), v.x()}; }
 
@@ -42,8 +40,7 @@ struct ResidualCovariance {
 
 ResidualCovariance residual_covariance(const Observation& o, const Pose2& pose) {
   switch (o.kind) {
-    case ObservationKind::kWall:
-      return {o.noise, o.plan};
+    case ObservationKind::kWall: return {o.noise, o.plan};
     case ObservationKind::kPoint: {
       const Matrix2d R = pose.rotation();
       return {R * o.noise * R.transpose(), o.plan};
@@ -61,69 +58,65 @@ ResidualCovariance residual_covariance(const Observation& o, const Pose2& pose) 
   return {};
 }
 
-/// Derivative of the residual by the mounting errors.
-CalibrationJacobian by_calibration(const Observation& o, const Pose2& pose, const sensors::Rig& rig) {
-  CalibrationJacobian J = CalibrationJacobian::Zero();
-  if (o.kind == ObservationKind::kBearing) {
-    const Vector2d way = o.map_point - pose * o.base_point;
-    const Vector2d aside = turned(way) / std::max(way.squaredNorm(), 1e-4);
-    J(0, 0) = -1.0;
-    J.block<1, 2>(0, 1) = -aside.transpose() * pose.rotation();
-    return J;
+/// Errors that all readings of an instrument share: fresh in each acquisition (the scan was carried over a motion), or
+/// always the same (mounting, the mirror's centre).
+struct CommonErrors {
+  Matrix6d noise = Matrix6d::Zero();
+  Matrix6d repeated = Matrix6d::Zero();
+};
+
+/// An instrument that is not there has an error that is known to be nearly nothing, so that the covariance inverts.
+constexpr double kNearlyNothing = 1e-10;
+
+CommonErrors common_errors_of(const sensors::Rig& rig) {
+  CommonErrors common;
+  common.noise.diagonal().setConstant(kNearlyNothing);
+  if (!rig.range_finders.empty()) {
+    const sensors::CalibrationAccuracy& a = rig.range_finders.front().accuracy;
+    common.repeated.diagonal().head<3>() << a.x_m * a.x_m, a.y_m * a.y_m, a.theta_rad * a.theta_rad;
   }
-  if (rig.range_finders.empty()) return J;
-  const Matrix2d R = pose.rotation();
-  const Vector2d by_yaw = R * turned(o.base_point - rig.range_finders.front().T_base_sensor.translation());
-  if (o.kind == ObservationKind::kPoint) {
-    J.col(3) = by_yaw;
-    J.block<2, 2>(0, 4) = R;
-  } else {
-    const Vector2d normal(-std::sin(o.map_angle), std::cos(o.map_angle));
-    J(0, 3) = normal.dot(by_yaw);
-    J(1, 3) = 1.0;
-    J.block<1, 2>(0, 4) = normal.transpose() * R;
+  if (rig.camera) {
+    const sensors::CalibrationAccuracy& a = rig.camera->accuracy;
+    const double harmonic = rig.camera->horizon_radius_px > 0.0 ? a.center_px / rig.camera->horizon_radius_px : 0.0;
+    common.repeated.diagonal().tail<3>() << a.theta_rad * a.theta_rad, harmonic * harmonic, harmonic * harmonic;
   }
-  return J;
+  return common;
 }
 
-Eigen::Matrix<double, kCalibrationParameters, 1> calibration_variance(const sensors::Rig& rig) {
-  Eigen::Matrix<double, kCalibrationParameters, 1> v = Eigen::Matrix<double, kCalibrationParameters, 1>::Zero();
-  const auto put = [&v](int at, const sensors::CalibrationAccuracy& a) {
-    v.segment<3>(at) << a.theta_rad * a.theta_rad, a.x_m * a.x_m, a.y_m * a.y_m;
-  };
-  if (rig.camera) put(0, rig.camera->accuracy);
-  if (!rig.range_finders.empty()) put(3, rig.range_finders.front().accuracy);
-  return v;
-}
-
-/// Whitened residuals of the prior (3 rows) and of all observations (2 rows each), for ceres::TinySolver.
+/// Whitened residuals of the prior on the state (9 rows) and of all observations (2 rows each), for ceres::TinySolver.
 struct WhitenedResiduals {
   using Scalar = double;
-  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 3 };
+  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = State::kSize };
 
-  Vector3d prior = Vector3d::Zero();
-  Matrix3d prior_whitener = Matrix3d::Identity();  ///< L^T with L L^T the information
+  State::Vector prior = State::Vector::Zero();
+  Matrix3d pose_whitener = Matrix3d::Identity();  ///< L^T with L L^T the information
+  Matrix6d common_whitener = Matrix6d::Identity();
   const std::vector<Observation>* observations = nullptr;
   std::vector<Matrix2d> whiteners;  ///< L^T, square root of the robust weight included
 
-  [[nodiscard]] int NumResiduals() const { return 3 + 2 * static_cast<int>(observations->size()); }
+  [[nodiscard]] int NumResiduals() const { return State::kSize + 2 * static_cast<int>(observations->size()); }
 
   bool operator()(const double* parameters, double* residuals, double* jacobian) const {
-    const Vector3d x(parameters[0], parameters[1], parameters[2]);
+    const State::Vector x = Eigen::Map<const State::Vector>(parameters);
     Eigen::Map<Eigen::VectorXd> e(residuals, NumResiduals());
-    Vector3d step = x - prior;
-    step(2) = geometry::wrap_angle(step(2));
-    e.head<3>() = prior_whitener * step;
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3>> J(jacobian, jacobian ? NumResiduals() : 0, 3);
-    if (jacobian) J.topRows<3>() = prior_whitener;
-    const Pose2 pose = pose_of(x);
+    State::Vector step = x - prior;
+    step(State::kTheta) = geometry::wrap_angle(step(State::kTheta));
+    e.head<3>() = pose_whitener * step.head<3>();
+    e.segment<6>(3) = common_whitener * step.tail<6>();
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, State::kSize>> J(jacobian, jacobian ? NumResiduals() : 0,
+                                                                      State::kSize);
+    if (jacobian) {
+      J.topRows<State::kSize>().setZero();
+      J.topLeftCorner<3, 3>() = pose_whitener;
+      J.block<6, 6>(3, 3) = common_whitener;
+    }
     for (std::size_t k = 0; k < observations->size(); ++k) {
       Vector2d raw;
-      Jacobian by_pose;
-      evaluate((*observations)[k], pose, raw, jacobian ? &by_pose : nullptr);
-      const auto row = static_cast<Eigen::Index>(3 + 2 * k);
+      State::Jacobian by_state;
+      evaluate((*observations)[k], x, raw, jacobian ? &by_state : nullptr);
+      const auto row = static_cast<Eigen::Index>(State::kSize + 2 * k);
       e.segment<2>(row) = whiteners[k] * raw;
-      if (jacobian) J.middleRows<2>(row) = whiteners[k] * by_pose;
+      if (jacobian) J.middleRows<2>(row) = whiteners[k] * by_state;
     }
     return true;
   }
@@ -131,35 +124,50 @@ struct WhitenedResiduals {
 
 /// An observation linearised at the solution.
 struct Linearised {
-  Jacobian by_pose;
+  State::Jacobian by_state;
   ResidualCovariance covariance;
   double weight = 1.0;  ///< of the robust loss
 };
 
-/// Split covariance intersection gives the share omega to the prior's correlated part and 1 - omega to the plan's.
+/// What is known before an acquisition.
+struct Prior {
+  SplitPose pose;
+  CommonErrors common;
+};
+
+/// Split covariance intersection gives the share omega to the prior's correlated part and 1 - omega to what repeats.
 Matrix2d intersected(const Linearised& l, double omega) {
   return (l.covariance.noise + l.covariance.plan / (1.0 - omega)) / l.weight;
 }
-
-Matrix3d prior_covariance(const SplitPose& prior, double omega) {
-  return prior.independent + prior.correlated / omega;
+Matrix3d intersected(const SplitPose& prior, double omega) { return prior.independent + prior.correlated / omega; }
+Matrix6d intersected(const CommonErrors& common, double omega) {
+  return common.noise + common.repeated / (1.0 - omega);
 }
 
-Matrix3d information(const SplitPose& prior, const std::vector<Linearised>& linearised, double omega) {
-  Matrix3d sum = prior_covariance(prior, omega).inverse();
+State::Matrix information(const Prior& prior, const std::vector<Linearised>& linearised, double omega) {
+  State::Matrix sum = State::Matrix::Zero();
+  sum.topLeftCorner<3, 3>() = intersected(prior.pose, omega).inverse();
+  sum.bottomRightCorner<6, 6>() = intersected(prior.common, omega).inverse();
   for (const Linearised& l : linearised)
-    sum += l.by_pose.transpose() * intersected(l, omega).inverse() * l.by_pose;
+    sum.noalias() += l.by_state.transpose() * intersected(l, omega).inverse() * l.by_state;
   return sum;
 }
 
-/// The share that leaves the smallest covariance (largest determinant of the information).
-double best_share(const SplitPose& prior, const std::vector<Linearised>& linearised) {
-  constexpr std::array kShares{0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98};
-  double best = 0.5, best_determinant = -1.0;
+/// The pose's covariance, whatever the common errors are.
+Matrix3d pose_covariance(const State::Matrix& information) {
+  const Matrix6d common = information.bottomRightCorner<6, 6>();
+  const Eigen::Matrix<double, 6, 3> mixed = information.bottomLeftCorner<6, 3>();
+  return (information.topLeftCorner<3, 3>() - mixed.transpose() * common.llt().solve(mixed)).inverse();
+}
+
+/// The share that leaves the pose the smallest covariance (by its determinant).
+double best_share(const Prior& prior, const std::vector<Linearised>& linearised) {
+  constexpr std::array kShares{0.02, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.98};
+  double best = 0.5, smallest = std::numeric_limits<double>::infinity();
   for (const double omega : kShares) {
-    const double determinant = information(prior, linearised, omega).determinant();
-    if (determinant > best_determinant) {
-      best_determinant = determinant;
+    const double determinant = pose_covariance(information(prior, linearised, omega)).determinant();
+    if (determinant < smallest) {
+      smallest = determinant;
       best = omega;
     }
   }
@@ -178,134 +186,154 @@ double chi_square_gate(int dimension, double p) {
 
 }  // namespace
 
-void evaluate(const Observation& o, const Pose2& pose, Vector2d& residual, Jacobian* jacobian) {
-  const Vector2d in_map = pose * o.base_point;
-  const Vector2d by_theta = turned(in_map - pose.translation());
-  switch (o.kind) {
-    case ObservationKind::kWall: {
-      const Vector2d normal(-std::sin(o.map_angle), std::cos(o.map_angle));
-      residual = {normal.dot(in_map - o.map_point), geometry::wrap_line_angle(o.base_angle + pose.theta - o.map_angle)};
-      if (jacobian) *jacobian << normal.x(), normal.y(), normal.dot(by_theta), 0.0, 0.0, 1.0;
-      return;
-    }
-    case ObservationKind::kPoint:
-      residual = in_map - o.map_point;
-      if (jacobian) *jacobian << 1.0, 0.0, by_theta.x(), 0.0, 1.0, by_theta.y();
-      return;
-    case ObservationKind::kBearing: {
-      const Vector2d way = o.map_point - in_map;
-      residual = {geometry::wrap_angle(std::atan2(way.y(), way.x()) - pose.theta - o.base_angle), 0.0};
-      if (!jacobian) return;
-      const Vector2d aside = turned(way) / std::max(way.squaredNorm(), 1e-4);
-      *jacobian << -aside.x(), -aside.y(), -aside.dot(by_theta) - 1.0, 0.0, 0.0, 0.0;
-      return;
-    }
+void evaluate(const Observation& o, const State::Vector& x, Vector2d& residual, State::Jacobian* jacobian) {
+  const Pose2 pose = pose_of(x);
+  if (jacobian) jacobian->setZero();
+  if (o.kind == ObservationKind::kBearing) {
+    const Vector2d from = pose * o.base_point;
+    const Vector2d way = o.map_point - from;
+    const double c = std::cos(o.base_angle), s = std::sin(o.base_angle);
+    const double observed = o.base_angle + x(State::kCameraTheta) + x(State::kCameraCos) * c + x(State::kCameraSin) * s;
+    residual = {geometry::wrap_angle(std::atan2(way.y(), way.x()) - pose.theta - observed), 0.0};
+    if (!jacobian) return;
+    const Vector2d aside = turned(way) / std::max(way.squaredNorm(), 1e-4);
+    const Vector2d by_theta = turned(from - pose.translation());
+    jacobian->row(0) << -aside.x(), -aside.y(), -aside.dot(by_theta) - 1.0, 0.0, 0.0, 0.0, -1.0, -c, -s;
+    return;
   }
+  // The scan as a whole is off by (x, y, theta), in first order.
+  const Vector2d shift = x.segment<2>(State::kRangeX);
+  const Vector2d in_base = o.base_point + shift + x(State::kRangeTheta) * turned(o.base_point);
+  const Vector2d in_map = pose * in_base;
+  const Vector2d by_theta = turned(in_map - pose.translation());
+  const Matrix2d R = pose.rotation();
+  const Vector2d by_scan_theta = R * turned(o.base_point);
+  if (o.kind == ObservationKind::kPoint) {
+    residual = in_map - o.map_point;
+    if (!jacobian) return;
+    jacobian->leftCols<2>().setIdentity();
+    jacobian->col(State::kTheta) = by_theta;
+    jacobian->middleCols<2>(State::kRangeX) = R;
+    jacobian->col(State::kRangeTheta) = by_scan_theta;
+    return;
+  }
+  const Vector2d normal(-std::sin(o.map_angle), std::cos(o.map_angle));
+  const double angle = o.base_angle + x(State::kRangeTheta) + pose.theta;
+  residual = {normal.dot(in_map - o.map_point), geometry::wrap_line_angle(angle - o.map_angle)};
+  if (!jacobian) return;
+  const Vector2d normal_in_base = R.transpose() * normal;
+  jacobian->row(0) << normal.x(), normal.y(), normal.dot(by_theta), normal_in_base.x(), normal_in_base.y(),
+      normal.dot(by_scan_theta), 0.0, 0.0, 0.0;
+  (*jacobian)(1, State::kTheta) = 1.0;
+  (*jacobian)(1, State::kRangeTheta) = 1.0;
+}
+
+void evaluate(const Observation& observation, const Pose2& pose, Vector2d& residual) {
+  State::Vector x = State::Vector::Zero();
+  x.head<3>() = vector_of(pose);
+  evaluate(observation, x, residual, nullptr);
 }
 
 struct PoseSolver::State {
-  sensors::Rig rig;
+  CommonErrors common;
   PoseSolverParams params;
   ceres::TinySolver<WhitenedResiduals> solver;
   WhitenedResiduals residuals;
   std::vector<Linearised> linearised;
   PoseSolution solution;
 
-  void linearise(const Pose2& pose);
-  void minimise(const SplitPose& prior, double omega, Vector3d& x);
-  void reweight(const Pose2& pose);
-  void finish(const SplitPose& prior, double omega, const Vector3d& x);
+  void minimise(const Prior& prior, double omega, PoseState::Vector& x);
+  void reweight(const PoseState::Vector& x);
+  void finish(const Prior& prior, double omega, const PoseState::Vector& x);
 };
 
-void PoseSolver::State::linearise(const Pose2& pose) {
-  const std::vector<Observation>& observations = *residuals.observations;
-  for (std::size_t k = 0; k < observations.size(); ++k) {
-    Vector2d residual;
-    evaluate(observations[k], pose, residual, &linearised[k].by_pose);
-    linearised[k].covariance = residual_covariance(observations[k], pose);
-  }
-}
-
-void PoseSolver::State::minimise(const SplitPose& prior, double omega, Vector3d& x) {
-  residuals.prior_whitener = prior_covariance(prior, omega).inverse().llt().matrixU();
+void PoseSolver::State::minimise(const Prior& prior, double omega, PoseState::Vector& x) {
+  residuals.pose_whitener = intersected(prior.pose, omega).inverse().llt().matrixU();
+  residuals.common_whitener = intersected(prior.common, omega).inverse().llt().matrixU();
   for (std::size_t k = 0; k < linearised.size(); ++k)
     residuals.whiteners[k] = whitener(intersected(linearised[k], omega)).transpose();
   solver.Solve(residuals, &x);
-  x(2) = geometry::wrap_angle(x(2));
+  x(PoseState::kTheta) = geometry::wrap_angle(x(PoseState::kTheta));
 }
 
-/// Cauchy loss: weight 1 / (1 + s / c^2), s the squared residual per degree of freedom in standard deviations.
-void PoseSolver::State::reweight(const Pose2& pose) {
+/// Linearises; Cauchy loss: weight 1 / (1 + s / c^2), s the squared residual per degree of freedom in standard
+/// deviations.
+void PoseSolver::State::reweight(const PoseState::Vector& x) {
   const std::vector<Observation>& observations = *residuals.observations;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     Linearised& l = linearised[k];
     Vector2d residual;
-    evaluate(observations[k], pose, residual, &l.by_pose);
-    l.covariance = residual_covariance(observations[k], pose);
+    evaluate(observations[k], x, residual, &l.by_state);
+    l.covariance = residual_covariance(observations[k], pose_of(x));
     const double squared =
         residual.dot((l.covariance.noise + l.covariance.plan).inverse() * residual) / observations[k].dimension();
     l.weight = 1.0 / (1.0 + squared / (params.robust_scale * params.robust_scale));
   }
 }
 
-void PoseSolver::State::finish(const SplitPose& prior, double omega, const Vector3d& x) {
-  const Matrix3d prior_information = prior_covariance(prior, omega).inverse();
-  const Matrix3d covariance = information(prior, linearised, omega).inverse();
-  const Matrix3d keep = covariance * prior_information;
-  Matrix3d independent = keep * prior.independent * keep.transpose();
-  Eigen::Matrix<double, 3, kCalibrationParameters> by_mounting =
-      Eigen::Matrix<double, 3, kCalibrationParameters>::Zero();
+void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState::Vector& x) {
+  const PoseState::Matrix all = information(prior, linearised, omega).inverse();
+  const Eigen::Matrix<double, 3, PoseState::kSize> of_pose = all.topRows<3>();
+  const Matrix3d keep = of_pose.leftCols<3>() * intersected(prior.pose, omega).inverse();
+  const Eigen::Matrix<double, 3, 6> by_common = of_pose.rightCols<6>() * intersected(prior.common, omega).inverse();
+  Matrix3d independent =
+      keep * prior.pose.independent * keep.transpose() + by_common * prior.common.noise * by_common.transpose();
   const std::vector<Observation>& observations = *residuals.observations;
-  const Pose2 pose = pose_of(x);
   for (std::size_t k = 0; k < observations.size(); ++k) {
     const Linearised& l = linearised[k];
-    const Eigen::Matrix<double, 3, 2> gain = covariance * l.by_pose.transpose() * intersected(l, omega).inverse();
+    const Eigen::Matrix<double, 3, 2> gain = of_pose * l.by_state.transpose() * intersected(l, omega).inverse();
     independent += gain * (l.covariance.noise / l.weight) * gain.transpose();
-    by_mounting += gain * by_calibration(observations[k], pose, rig);
     Vector2d residual;
-    evaluate(observations[k], pose, residual, nullptr);
+    evaluate(observations[k], x, residual, nullptr);
     const double squared = residual.dot((l.covariance.noise + l.covariance.plan).inverse() * residual);
     solution.mahalanobis_squared.push_back(squared);
-    solution.outlier.push_back(squared >
-                               chi_square_gate(observations[k].dimension(), params.outlier_probability));
+    solution.outlier.push_back(squared > chi_square_gate(observations[k].dimension(), params.outlier_probability));
   }
-  solution.pose = {pose, 0.5 * (independent + independent.transpose()), Matrix3d::Zero()};
+  const Matrix3d covariance = of_pose.leftCols<3>();
+  solution.pose = {pose_of(x), 0.5 * (independent + independent.transpose()), Matrix3d::Zero()};
   solution.pose.correlated = 0.5 * (covariance + covariance.transpose()) - solution.pose.independent;
-  solution.calibration = by_mounting * calibration_variance(rig).asDiagonal() * by_mounting.transpose();
-  Vector3d step = x - vector_of(prior.pose);
+  solution.common_errors = x.tail<6>();
+  Vector3d step = x.head<3>() - vector_of(prior.pose.pose);
   step(2) = geometry::wrap_angle(step(2));
-  solution.prior_mahalanobis_squared = step.dot(prior.covariance().inverse() * step);
+  solution.prior_mahalanobis_squared = step.dot(prior.pose.covariance().inverse() * step);
 }
 
 PoseSolver::PoseSolver(const sensors::Rig& rig, const PoseSolverParams& params) : state_(std::make_unique<State>()) {
-  state_->rig = rig;
+  state_->common = common_errors_of(rig);
   state_->params = params;
 }
 PoseSolver::~PoseSolver() = default;
 PoseSolver::PoseSolver(PoseSolver&&) noexcept = default;
 PoseSolver& PoseSolver::operator=(PoseSolver&&) noexcept = default;
 
-const PoseSolution& PoseSolver::solve(const SplitPose& prior, const std::vector<Observation>& observations) {
+const PoseSolution& PoseSolver::solution() const { return state_->solution; }
+
+const PoseSolution& PoseSolver::solve(const SplitPose& prior_pose, const std::vector<Observation>& observations,
+                                      const Matrix3d& carry_covariance) {
   State& s = *state_;
   s.solution.mahalanobis_squared.clear();
   s.solution.outlier.clear();
   s.solution.prior_mahalanobis_squared = 0.0;
   if (observations.empty()) {
-    s.solution.pose = prior;
-    s.solution.calibration.setZero();
+    s.solution.pose = prior_pose;
+    s.solution.common_errors.setZero();
     return s.solution;
   }
-  s.residuals.prior = vector_of(prior.pose);
+  Prior prior{prior_pose, s.common};
+  prior.common.noise.topLeftCorner<3, 3>() += carry_covariance;
+  PoseState::Vector x = PoseState::Vector::Zero();
+  x.head<3>() = vector_of(prior_pose.pose);
+  s.residuals.prior = x;
   s.residuals.observations = &observations;
   s.residuals.whiteners.resize(observations.size());
-  s.linearised.assign(observations.size(), {});
-  Vector3d x = vector_of(prior.pose);
-  s.linearise(prior.pose);
+  s.linearised.resize(observations.size());
+  s.reweight(x);
+  for (Linearised& l : s.linearised) l.weight = 1.0;  // far from the solution, residuals say nothing of outliers
   double omega = 0.5;
   for (int i = 0; i <= s.params.reweightings; ++i) {
     omega = best_share(prior, s.linearised);
     s.minimise(prior, omega, x);
-    s.reweight(pose_of(x));
+    s.reweight(x);
   }
   s.finish(prior, omega, x);
   return s.solution;

@@ -71,7 +71,9 @@ TEST(LandmarkMap, WallAgainstTheMiddleOfAnotherIsACornerOnBothSides) {
 
 TEST(LandmarkMap, CurveGivesNeitherCornersNorEdgesNorWalls) {
   FloorPlan plan;
-  const auto at = [](int i) { return Vector2d(0.25 * std::cos(i * std::numbers::pi / 8), 0.25 * std::sin(i * std::numbers::pi / 8)); };
+  const auto at = [](int i) {
+    return Vector2d(0.25 * std::cos(i * std::numbers::pi / 8), 0.25 * std::sin(i * std::numbers::pi / 8));
+  };
   for (int i = 0; i < 16; ++i) plan.walls.push_back({at(i), at(i + 1)});
   const LandmarkMap map(plan);
   EXPECT_TRUE(map.walls().empty());

@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "localization/localizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "perception/observer.hpp"
+
+namespace credo::localization {
+namespace {
+
+using Eigen::Vector2d;
+using geometry::Pose2;
+using geometry::PoseEstimate;
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// A room of 6 m x 4 m with a recess, so that it looks different from everywhere.
+geometry::FloorPlan room() {
+  const std::vector<Vector2d> p{{0, 0}, {6, 0}, {6, 4}, {3.5, 4}, {3.5, 4.8}, {2, 4.8}, {2, 4}, {0, 4}};
+  geometry::FloorPlan plan;
+  plan.uncertainty_m = 0.005;
+  for (std::size_t i = 0; i < p.size(); ++i) plan.walls.push_back({p[i], p[(i + 1) % p.size()]});
+  return plan;
+}
+
+sensors::Rig rig() {
+  sensors::Rig rig;
+  sensors::RangeFinder& scanner = rig.range_finders.emplace_back();
+  scanner.angle_min_rad = -kPi;
+  scanner.count = 360;
+  scanner.angle_increment_rad = 2.0 * kPi / scanner.count;
+  scanner.range_min_m = 0.1;
+  scanner.range_max_m = 10.0;
+  scanner.noise = {.sigma_0_m = 0.005, .k_per_m = 0.0};
+  rig.odometry = sensors::OdometryNoise{};
+  return rig;
+}
+
+/// A drive through the room: acquisitions with scans and odometry, and the truth.
+class Drive {
+ public:
+  explicit Drive(std::uint64_t seed) : random_(seed), map_(room()) {}
+
+  sensors::Acquisition acquire(const Pose2& truth, const Pose2& step, bool blind = false) {
+    sensors::Acquisition acquisition;
+    acquisition.time = time_ += 1'000'000'000;
+    const sensors::RangeFinder scanner = rig().range_finders.front();
+    sensors::RangeScan scan;
+    scan.time = acquisition.time;
+    for (int i = 0; i < scanner.count; ++i) {
+      const double angle = truth.theta + scanner.beam_angle(i);
+      const double range = map_.cast(truth.translation(), {std::cos(angle), std::sin(angle)}, 10.0);
+      scan.ranges_m.push_back(blind ? std::nanf("") : static_cast<float>(range + 0.005 * normal_(random_)));
+    }
+    acquisition.scan = scan;
+    const Pose2 measured{step.x * (1.0 + 0.02 * normal_(random_)), step.y, step.theta + 0.01 * normal_(random_)};
+    acquisition.path = sensors::MotionPath({{time_ - 1'000'000'000, {}}, {time_, measured}});
+    if (!first_) acquisition.motion = sensors::OdometryNoise{}.with_covariance(measured);
+    first_ = false;
+    return acquisition;
+  }
+
+ private:
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  LandmarkMap map_;
+  sensors::Timestamp time_ = 0;
+  bool first_ = true;
+};
+
+PoseEstimate given(const Pose2& pose) {
+  PoseEstimate estimate{pose, Eigen::Matrix3d::Zero()};
+  estimate.covariance.diagonal() << 0.0025, 0.0025, 0.0012;
+  return estimate;
+}
+
+double position_error(const Localization& fix, const Pose2& truth) {
+  return std::hypot(fix.estimate.pose.x - truth.x, fix.estimate.pose.y - truth.y);
+}
+
+struct Pipeline {
+  explicit Pipeline(const geometry::FloorPlan& plan, const std::optional<PoseEstimate>& initial,
+                    perception::Method method = perception::Method::kDefault)
+      : observer(rig(), observer_params(method)),
+        localizer(plan, rig(), initial, LocalizerParams{}.with_method(method)) {}
+
+  static perception::ObserverParams observer_params(perception::Method method) {
+    perception::ObserverParams params;
+    params.method = method;
+    return params;
+  }
+
+  Localization operator()(sensors::Acquisition acquisition) {
+    localizer.with_path(acquisition);
+    return localizer.update(observer.observe(acquisition), acquisition.motion);
+  }
+
+  perception::Observer observer;
+  Localizer localizer;
+};
+
+TEST(Localizer, FollowsADriveFromAnInitialPoseThatIsSomewhatWrong) {
+  Drive drive(3);
+  Pipeline localize(room(), given({1.05, 1.46, 0.03}));
+  Pose2 truth{1.0, 1.5, 0.0};
+  const Pose2 step{0.2, 0.0, 0.05};
+  for (int i = 0; i < 18; ++i) {
+    const Localization fix = localize(drive.acquire(truth, step));
+    EXPECT_LT(position_error(fix, truth), 0.02) << "acquisition " << i;
+    EXPECT_LT(std::abs(geometry::angle_difference(fix.estimate.pose.theta, truth.theta)), 0.01) << "acquisition " << i;
+    EXPECT_EQ(fix.status, Status::kLocalized) << fix.reason;
+    EXPECT_GT(fix.belief.yes, 0.8) << "acquisition " << i;
+    truth = truth * step;
+  }
+}
+
+TEST(Localizer, BlindItPredictsGrowsUncertainAndSaysSoAndRecovers) {
+  Drive drive(4);
+  Pipeline localize(room(), given({1.0, 1.5, 0.0}));
+  Pose2 truth{1.0, 1.5, 0.0};
+  const Pose2 step{0.1, 0.0, 0.02};
+  Localization before = localize(drive.acquire(truth, step));
+  for (int i = 0; i < 4; ++i) before = localize(drive.acquire(truth = truth * step, step));
+  ASSERT_EQ(before.status, Status::kLocalized);
+  Localization fix = before;
+  for (int i = 0; i < 5; ++i) {
+    const Localization last = fix;
+    fix = localize(drive.acquire(truth = truth * step, step, true));
+    EXPECT_GT(fix.estimate.covariance.trace(), last.estimate.covariance.trace());
+    EXPECT_NE(fix.status, Status::kLocalized);
+    EXPECT_FALSE(fix.reason.empty());
+    EXPECT_EQ(fix.matched, 0);
+    EXPECT_LT(position_error(fix, truth), 0.15) << "predicted by odometry";
+  }
+  EXPECT_LT(fix.belief.yes, before.belief.yes);
+  for (int i = 0; i < 3; ++i) fix = localize(drive.acquire(truth = truth * step, step));
+  EXPECT_EQ(fix.status, Status::kLocalized) << fix.reason;
+  EXPECT_LT(position_error(fix, truth), 0.02);
+}
+
+TEST(Localizer, InAnotherBuildingItDoesNotClaimToBeLocalized) {
+  geometry::FloorPlan elsewhere;
+  elsewhere.walls = {{{-20, 7}, {20, 9}}, {{-20, -6}, {20, -4}}, {{-9, -6}, {-9, 8}}};
+  Drive drive(5);
+  Pipeline localize(elsewhere, given({1.0, 1.5, 0.0}));
+  Localization fix;
+  for (int i = 0; i < 5; ++i) fix = localize(drive.acquire({1.0, 1.5, 0.0}, {}));
+  EXPECT_NE(fix.status, Status::kLocalized);
+  EXPECT_LT(fix.belief.yes, 0.5);
+}
+
+TEST(Localizer, WithoutAPlanItGivesTheMotionFromItsStart) {
+  Drive drive(6);
+  Pipeline localize({}, std::nullopt);
+  Pose2 truth{1.0, 1.5, 0.0};
+  const Pose2 start = truth, step{0.1, 0.0, 0.03};
+  Localization fix = localize(drive.acquire(truth, step));
+  EXPECT_EQ(fix.status, Status::kInitializing);
+  for (int i = 0; i < 15; ++i) fix = localize(drive.acquire(truth = truth * step, step));
+  EXPECT_EQ(fix.status, Status::kInitializing);
+  const Pose2 moved = start.inverse() * truth;
+  EXPECT_LT(std::hypot(fix.estimate.pose.x - moved.x, fix.estimate.pose.y - moved.y), 0.03);
+  EXPECT_LT(std::abs(geometry::angle_difference(fix.estimate.pose.theta, moved.theta)), 0.015);
+  EXPECT_FALSE(fix.reason.empty());
+}
+
+TEST(Localizer, PaperMethodFollowsASlowDriveWithoutOdometry) {
+  Drive drive(7);
+  Pipeline localize(room(), given({1.0, 1.5, 0.0}), perception::Method::kPaper);
+  Pose2 truth{1.0, 1.5, 0.0};
+  const Pose2 step{0.05, 0.0, 0.0};
+  double worst = 0.0;
+  for (int i = 0; i < 15; ++i) {
+    worst = std::max(worst, position_error(localize(drive.acquire(truth, step)), truth));
+    truth = truth * step;
+  }
+  EXPECT_LT(worst, 0.15);
+}
+
+TEST(Localizer, PoseAtAnEarlierTimeLiesBetweenTheFixes) {
+  Drive drive(8);
+  Pipeline localize(room(), given({1.0, 1.5, 0.0}));
+  Pose2 truth{1.0, 1.5, 0.0};
+  const Pose2 step{0.2, 0.0, 0.0};
+  const Localization a = localize(drive.acquire(truth, step));
+  const Localization b = localize(drive.acquire(truth = truth * step, step));
+  const auto at_a = localize.localizer.pose_at(a.time), at_b = localize.localizer.pose_at(b.time);
+  EXPECT_NEAR(at_a.value.pose.x, a.estimate.pose.x, 1e-9);
+  EXPECT_NEAR(at_b.value.pose.x, b.estimate.pose.x, 1e-9);
+  const auto half = localize.localizer.pose_at((a.time + b.time) / 2);
+  EXPECT_NEAR(half.value.pose.x, 0.5 * (a.estimate.pose.x + b.estimate.pose.x), 1e-3);
+  EXPECT_LE(half.belief.pignistic(), std::max(a.belief.pignistic(), b.belief.pignistic()));
+}
+
+TEST(Localizer, SameInputSameBytes) {
+  const auto run = [] {
+    Drive drive(9);
+    Pipeline localize(room(), given({1.0, 1.5, 0.0}));
+    Pose2 truth{1.0, 1.5, 0.0};
+    PoseEstimate last;
+    for (int i = 0; i < 6; ++i)
+      last = localize(drive.acquire(truth = truth * Pose2{0.1, 0, 0.05}, {0.1, 0, 0.05})).estimate;
+    return last;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+}  // namespace
+}  // namespace credo::localization
