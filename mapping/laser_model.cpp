@@ -24,8 +24,8 @@ evidence::GridMass laser_li2006(double rho_m, double reading_m, double epsilon_m
 Li2006Laser::Li2006Laser(const Li2006LaserParams& params) : params_(params) {
   if (!(params.epsilon_m > 0.0 && std::isfinite(params.epsilon_m)))
     throw std::invalid_argument("laser model: epsilon_m must be a finite length above 0");
-  if (!(params.sigmas >= 0.0 && std::isfinite(params.sigmas)))
-    throw std::invalid_argument("laser model: sigmas must be finite and not negative");
+  if (!(params.hit_sigmas >= 0.0 && params.free_sigmas >= params.hit_sigmas && std::isfinite(params.free_sigmas)))
+    throw std::invalid_argument("laser model: hit_sigmas must not be negative, nor above free_sigmas, and both finite");
   if (!(params.reliability >= 0.0 && params.reliability < 1.0))
     throw std::invalid_argument("laser model: reliability must be in [0, 1): at 1 no later reading could correct it");
 }
@@ -33,8 +33,12 @@ Li2006Laser::Li2006Laser(const Li2006LaserParams& params) : params_(params) {
 evidence::GridMass Li2006Laser::free_mass() const { return kFree; }
 evidence::GridMass Li2006Laser::hit_mass() const { return kHit; }
 
+double Li2006Laser::free_margin(double reading_m, const sensors::RangeNoise& noise) const {
+  return std::max(params_.epsilon_m, params_.free_sigmas * noise.sigma(reading_m));
+}
+
 double Li2006Laser::half_width(double reading_m, const sensors::RangeNoise& noise) const {
-  return std::max(params_.epsilon_m, params_.sigmas * noise.sigma(reading_m));
+  return std::max(params_.epsilon_m, params_.hit_sigmas * noise.sigma(reading_m));
 }
 
 double Li2006Laser::hit_share(double reading_m, const sensors::RangeNoise& noise) const {

@@ -83,13 +83,13 @@ ScanPainter::Counts ScanPainter::classify(std::span<const float> ranges_m, const
     Beam& beam = beams_[i];
     const double range_m = ranges_m[i];
     beam.range_m = 0.0;
-    beam.near_m = beam.far_m = 0.0;
+    beam.free_m = beam.near_m = beam.far_m = 0.0;
     beam.free_class = beam.hit_class = -1;
     if (std::isnan(range_m)) {
       ++counts.missing;
     } else if (std::isinf(range_m) && range_m > 0.0) {
       ++counts.no_returns;
-      beam.near_m = beam.far_m = no_return_m;
+      beam.free_m = no_return_m;
       beam.free_class = no_return_class;
     } else if (range_m < range_finder_.range_min_m || range_m > range_finder_.range_max_m) {
       ++counts.out_of_range;
@@ -101,7 +101,8 @@ ScanPainter::Counts ScanPainter::classify(std::span<const float> ranges_m, const
       beam.range_m = range_m;
       beam.free_class = free_class(trust);
       if (range_m <= params_.max_range_m) beam.hit_class = hit_class(trust * tables_.hit_share[bin]);
-      beam.near_m = std::min(std::max(0.0, range_m - half_width_m), reach_m);
+      beam.free_m = std::min(std::max(0.0, range_m - tables_.free_margin_m[bin]), reach_m);
+      beam.near_m = std::max(0.0, range_m - half_width_m);
       beam.far_m = range_m + half_width_m;
     }
   }
@@ -166,6 +167,7 @@ void ScanPainter::join() {
     if (sine > 0.0 && (beam.far_m - beam.range_m) * sine < across_m) {
       beam.far_m = beam.range_m + across_m / sine;
       beam.near_m = std::max(0.0, beam.range_m - across_m / sine);
+      beam.free_m = std::min(beam.free_m, beam.near_m);
     }
     sine_before = sine_of_next;
   }
@@ -175,20 +177,24 @@ void ScanPainter::outline() {
   const double cells_per_metre = 1.0 / georeference_.resolution_m;
   const double c = std::cos(half_sector_rad_), s = std::sin(half_sector_rad_);
   for (Beam& beam : beams_) {
-    const double near = beam.near_m * cells_per_metre, far = beam.far_m * cells_per_metre;
     const Eigen::Vector2d start = turned(beam.direction, c, -s), end = turned(beam.direction, c, s);
-    beam.free_start = beam.origin + near * start;
-    beam.free_tip = beam.origin + near * beam.direction;
-    beam.free_end = beam.origin + near * end;
-    beam.hit_start = beam.origin + far * start;
-    beam.hit_tip = beam.origin + far * beam.direction;
-    beam.hit_end = beam.origin + far * end;
+    const auto ring = [&](double radius_m, Eigen::Vector2d& at_start, Eigen::Vector2d& at_tip, Eigen::Vector2d& at_end) {
+      const double radius = radius_m * cells_per_metre;
+      at_start = beam.origin + radius * start;
+      at_tip = beam.origin + radius * beam.direction;
+      at_end = beam.origin + radius * end;
+    };
+    ring(beam.free_m, beam.free_start, beam.free_tip, beam.free_end);
+    if (beam.hit_class < 0) continue;
+    ring(beam.near_m, beam.near_start, beam.near_tip, beam.near_end);
+    ring(beam.far_m, beam.far_start, beam.far_tip, beam.far_end);
   }
   for (std::size_t i = 0; i + 1 < beams_.size(); ++i) {
     if (!beams_[i].joined) continue;
     Beam& next = beams_[i + 1];
     beams_[i].free_end = next.free_start = 0.5 * (beams_[i].free_tip + next.free_tip);
-    beams_[i].hit_end = next.hit_start = 0.5 * (beams_[i].hit_tip + next.hit_tip);
+    beams_[i].near_end = next.near_start = 0.5 * (beams_[i].near_tip + next.near_tip);
+    beams_[i].far_end = next.far_start = 0.5 * (beams_[i].far_tip + next.far_tip);
   }
 }
 
@@ -219,12 +225,12 @@ void ScanPainter::add_contours() {
     if (beam.hit_class < 0) continue;
     const bool open_start = i > 0 && beams_[i - 1].joined && beams_[i - 1].hit_class == beam.hit_class;
     const bool open_end = beam.joined && beams_[i + 1].hit_class == beam.hit_class;
-    run(beam.hit_start, beam.hit_tip, beam.hit_class);
-    run(beam.hit_tip, beam.hit_end, beam.hit_class);
-    if (!open_end) run(beam.hit_end, beam.free_end, beam.hit_class);
-    run(beam.free_end, beam.free_tip, beam.hit_class);
-    run(beam.free_tip, beam.free_start, beam.hit_class);
-    if (!open_start) run(beam.free_start, beam.hit_start, beam.hit_class);
+    run(beam.far_start, beam.far_tip, beam.hit_class);
+    run(beam.far_tip, beam.far_end, beam.hit_class);
+    if (!open_end) run(beam.far_end, beam.near_end, beam.hit_class);
+    run(beam.near_end, beam.near_tip, beam.hit_class);
+    run(beam.near_tip, beam.near_start, beam.hit_class);
+    if (!open_start) run(beam.near_start, beam.far_start, beam.hit_class);
   }
   if (before != nullptr) close();
 }
@@ -240,7 +246,7 @@ ScanPainter::Counts ScanPainter::paint(grids::EvidentialGrid& grid, const Pose2&
   join();
   double reach = 0.0;  // in metres, of the farthest beam
   const Eigen::Vector2d here = T_map_base * range_finder_.T_base_sensor.translation();
-  for (const Beam& beam : beams_) reach = std::max(reach, std::max(beam.near_m, beam.far_m));
+  for (const Beam& beam : beams_) reach = std::max(reach, std::max(beam.free_m, beam.far_m));
   reach += 2.0 * georeference_.resolution_m;
   for (const Beam& beam : beams_) {
     const Eigen::Vector2d moved = beam.origin * georeference_.resolution_m - here +
@@ -248,7 +254,7 @@ ScanPainter::Counts ScanPainter::paint(grids::EvidentialGrid& grid, const Pose2&
     if (!(moved.norm() <= std::max(range_finder_.range_max_m, 1.0)))
       throw std::out_of_range("the motion given with a scan carries the sensor " + std::to_string(moved.norm()) +
                               " m away within the scan: leave the motion out or correct it");
-    reach = std::max(reach, moved.norm() + beam.far_m + 2.0 * georeference_.resolution_m);
+    reach = std::max(reach, moved.norm() + std::max(beam.free_m, beam.far_m) + 2.0 * georeference_.resolution_m);
   }
   static_cast<void>(georeference_.cell_at(here - Eigen::Vector2d(reach, reach)));
   static_cast<void>(georeference_.cell_at(here + Eigen::Vector2d(reach, reach)));

@@ -24,7 +24,8 @@ struct LaserTables {
   std::array<evidence::FixedLogCommonality, kLevels + 1> free;
   std::array<evidence::FixedLogCommonality, kLevels + 1> hit;
   double bins_per_metre = 0.0;
-  std::vector<float> half_width_m;  ///< by range
+  std::vector<float> free_margin_m;  ///< by range
+  std::vector<float> half_width_m;   ///< by range
   std::vector<float> hit_share;     ///< by range
   double no_return_reliability = 0.0;
 };
@@ -36,11 +37,13 @@ template <LaserModel Model>
   LaserTables tables{.free = increments(model.free_mass(), model.reliability()),
                      .hit = increments(model.hit_mass(), model.reliability()),
                      .bins_per_metre = kBins / range_finder.range_max_m,
+                     .free_margin_m = {},
                      .half_width_m = {},
                      .hit_share = {},
                      .no_return_reliability = params.no_return_reliability};
   for (int bin = 0; bin <= kBins; ++bin) {
     const double range_m = (bin + 0.5) / tables.bins_per_metre;
+    tables.free_margin_m.push_back(static_cast<float>(model.free_margin(range_m, range_finder.noise)));
     tables.half_width_m.push_back(static_cast<float>(model.half_width(range_m, range_finder.noise)));
     tables.hit_share.push_back(static_cast<float>(model.hit_share(range_m, range_finder.noise)));
   }
@@ -70,8 +73,9 @@ class ScanPainter {
   struct Beam {
     Eigen::Vector2d origin, direction;
     Eigen::Vector2d free_start, free_tip, free_end;  ///< outline of the free part
-    Eigen::Vector2d hit_start, hit_tip, hit_end;     ///< far outline of the occupied part
-    double range_m = 0.0, near_m = 0.0, far_m = 0.0;
+    Eigen::Vector2d near_start, near_tip, near_end;  ///< near outline of the occupied part
+    Eigen::Vector2d far_start, far_tip, far_end;     ///< its far outline
+    double range_m = 0.0, free_m = 0.0, near_m = 0.0, far_m = 0.0;
     int free_class = -1, hit_class = -1;  ///< -1: none
     bool joined = false;                  ///< with the next beam: both hit one surface
   };

@@ -94,13 +94,16 @@ TEST(Li2006Laser, KeepsThePapersWidthForTimeOfFlightAndWidensForTriangulation) {
   const sensors::RangeNoise flight{.sigma_0_m = 0.01, .k_per_m = 0.0}, triangulation{.sigma_0_m = 0.005, .k_per_m = 0.0045};
   EXPECT_DOUBLE_EQ(model.half_width(8.0, flight), 0.05);
   EXPECT_DOUBLE_EQ(model.hit_share(8.0, flight), 1.0);
-  EXPECT_NEAR(model.half_width(4.0, triangulation), 3.0 * triangulation.sigma(4.0), 1e-12);
+  EXPECT_DOUBLE_EQ(model.free_margin(8.0, flight), 0.05);
+  EXPECT_NEAR(model.free_margin(4.0, triangulation), 3.0 * triangulation.sigma(4.0), 1e-12);
+  EXPECT_NEAR(model.half_width(4.0, triangulation), triangulation.sigma(4.0), 1e-12);
   EXPECT_NEAR(model.hit_share(4.0, triangulation) * model.half_width(4.0, triangulation), 0.05, 1e-12);
 }
 
 TEST(Li2006Laser, RefusesParametersThatCannotBe) {
   EXPECT_THROW(Li2006Laser({.epsilon_m = -0.05}), std::invalid_argument);
-  EXPECT_THROW(Li2006Laser({.sigmas = std::nan("")}), std::invalid_argument);
+  EXPECT_THROW(Li2006Laser({.free_sigmas = std::nan("")}), std::invalid_argument);
+  EXPECT_THROW(Li2006Laser({.free_sigmas = 1.0, .hit_sigmas = 2.0}), std::invalid_argument);
   EXPECT_THROW(Li2006Laser({.reliability = 1.0}), std::invalid_argument);
 }
 
