@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "apps/commands.hpp"
+#include "apps/output.hpp"
+#include "apps/terminal.hpp"
+#include "datasets/carmen.hpp"
+#include "datasets/map_server.hpp"
+#include "datasets/trajectory.hpp"
+#include "mapping/mapper.hpp"
+#include "results/belief_tiff.hpp"
+#include "results/config.hpp"
+#include "results/pictures.hpp"
+#include "results/staged_folder.hpp"
+
+namespace credo::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MapOptions {
+  std::string source, out, poses, pictures;
+  std::vector<std::string> sensors{"range", "sonar"};
+  std::string readout = "normalized";
+  bool force = false;
+  mapping::TrajectoryMappingParams params;
+  OutputFormat format;
+};
+
+/// Readings with the poses to map them from.
+struct Part {
+  sensors::MotionPath path;
+  sensors::Rig rig;
+  std::vector<sensors::RangeScan> scans;
+  std::vector<sensors::SonarSweep> sweeps;
+};
+
+sensors::MotionPath path_of(const std::vector<datasets::TimedPose>& poses) {
+  std::vector<sensors::OdometryReading> rows;
+  rows.reserve(poses.size());
+  for (const datasets::TimedPose& p : poses) rows.push_back({p.time, p.pose});
+  return sensors::MotionPath(std::move(rows));
+}
+
+template <typename Reading>
+std::vector<Reading> joined(const std::vector<std::vector<Reading>>& by_sensor) {
+  std::vector<Reading> all;
+  for (const auto& readings : by_sensor) all.insert(all.end(), readings.begin(), readings.end());
+  std::stable_sort(all.begin(), all.end(), [](const Reading& a, const Reading& b) { return a.time < b.time; });
+  return all;
+}
+
+bool wants(const MapOptions& o, const char* sensor) {
+  return std::find(o.sensors.begin(), o.sensors.end(), sensor) != o.sensors.end();
+}
+
+std::vector<datasets::TimedPose> given_poses(const std::string& file) {
+  const datasets::Trajectory trajectory = datasets::read_trajectory(file);
+  if (!trajectory.has_times) throw std::runtime_error(file + ": these poses have no times: readings cannot be placed with them");
+  return trajectory.poses;
+}
+
+std::vector<Part> parts_of_dataset(const MapOptions& o, std::string& poses) {
+  datasets::Dataset dataset = datasets::Dataset::open(o.source);
+  for (const std::string& remark : dataset.remarks) say_warning(remark);
+  const bool truth = o.poses.empty() || o.poses == "groundtruth";
+  if (truth && dataset.truth.empty()) {
+    throw std::runtime_error(o.source + ": the dataset has no ground truth: give the poses with --poses FILE (for example the "
+                             "trajectory.tum of credo run)");
+  }
+  poses = truth ? "ground truth" : o.poses;
+  Part part{.path = path_of(truth ? dataset.truth : given_poses(o.poses)), .rig = dataset.header.rig, .scans = {}, .sweeps = {}};
+  if (wants(o, "range")) part.scans = joined(dataset.scans);
+  if (wants(o, "sonar")) part.sweeps = joined(dataset.sonar);
+  std::vector<Part> parts;
+  parts.push_back(std::move(part));
+  return parts;
+}
+
+/// Each laser of the log from its own poses, so that nothing need be known of how it is mounted.
+std::vector<Part> parts_of_carmen(const MapOptions& o, std::string& poses) {
+  datasets::CarmenLog log = datasets::read_carmen(o.source);
+  for (const std::string& remark : log.remarks) say_warning(remark);
+  std::vector<Part> parts;
+  if (!o.poses.empty()) {
+    poses = o.poses;
+    parts.push_back({.path = path_of(given_poses(o.poses)), .rig = log.rig, .scans = joined(log.scans), .sweeps = joined(log.sonar)});
+    return parts;
+  }
+  poses = "the poses of the log";
+  for (std::size_t i = 0; i < log.scans.size(); ++i) {
+    if (log.laser_poses[i].empty()) continue;
+    Part part{.path = path_of(log.laser_poses[i]), .rig = log.rig, .scans = std::move(log.scans[i]), .sweeps = {}};
+    part.rig.range_finders[i].T_base_sensor = {};
+    parts.push_back(std::move(part));
+  }
+  if (parts.empty()) throw std::runtime_error(o.source + ": no scan of this log carries a pose: give them with --poses FILE");
+  return parts;
+}
+
+mapping::TrajectoryMap build(const MapOptions& o, const std::vector<Part>& parts) {
+  mapping::TrajectoryMap map{.grid = grids::EvidentialGrid(o.params.mapper.georeference), .counts = {}};
+  Progress progress("mapping");
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    progress.update(static_cast<double>(i) / static_cast<double>(parts.size()));
+    const Part& part = parts[i];
+    const mapping::TrajectoryMap one = mapping::map_along(part.path, part.rig, part.scans, part.sweeps, o.params);
+    map.grid.merge(one.grid);
+    map.counts += one.counts;
+    map.without_pose += one.without_pose;
+  }
+  return map;
+}
+
+void write(const MapOptions& o, const mapping::TrajectoryMap& map, const std::vector<Part>& parts, const std::string& poses) {
+  results::StagedFolder folder(o.out, o.force);
+  datasets::write_map(datasets::to_occupancy(map.grid), folder.path() / "map.yaml");
+  const auto channels = o.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized;
+  results::write_belief_tiff(results::belief_image(map.grid, channels), folder.path() / "map_belief.tiff");
+  results::write_text(folder.path() / "config.yaml", results::to_yaml(o.params, CREDO_VERSION, o.source, poses));
+  if (!o.pictures.empty()) {
+    std::vector<geometry::Pose2> way;
+    for (const auto& row : parts.front().path.rows()) way.push_back(row.T_odom_base);
+    fs::create_directories(o.pictures);
+    results::write_png(fs::path(o.pictures) / "map.png", results::map_picture(map.grid, way));
+  }
+  folder.commit();
+}
+
+void execute(MapOptions o) {
+  std::string poses;
+  std::vector<Part> parts;
+  if (datasets::Dataset::is_dataset(o.source)) {
+    parts = parts_of_dataset(o, poses);
+  } else if (fs::is_regular_file(o.source) && datasets::is_carmen(o.source)) {
+    parts = parts_of_carmen(o, poses);
+  } else {
+    throw std::runtime_error(o.source + ": expected a dataset folder (with a dataset.yaml) or a CARMEN log");
+  }
+  if (o.out.empty()) o.out = (fs::path("results") / (fs::path(o.source).lexically_normal().stem().string() + "_map")).string();
+  const mapping::TrajectoryMap map = build(o, parts);
+  write(o, map, parts, poses);
+  const grids::CellBox box = map.grid.bounding_box();
+  if (o.format.json()) {
+    print(nlohmann::ordered_json{{"map", o.out}, {"poses", poses}, {"scans", map.counts.scans},
+                                 {"sonar_sweeps", map.counts.sweeps}, {"echoes", map.counts.echoes},
+                                 {"no_returns", map.counts.no_returns}, {"without_pose", map.without_pose},
+                                 {"width", box.width}, {"height", box.height},
+                                 {"resolution_m", o.params.mapper.georeference.resolution_m}});
+    return;
+  }
+  std::printf("mapped %lld scans and %lld sonar sweeps with %s; %lld readings had no pose near in time\n",
+              static_cast<long long>(map.counts.scans), static_cast<long long>(map.counts.sweeps), poses.c_str(),
+              static_cast<long long>(map.without_pose));
+  std::printf("map: %s (%d x %d cells of %g m)\n", o.out.c_str(), box.width, box.height, o.params.mapper.georeference.resolution_m);
+  if (!o.pictures.empty()) std::printf("picture: %s\n", (fs::path(o.pictures) / "map.png").c_str());
+}
+
+}  // namespace
+
+void add_map(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("map", "Maps a drive whose poses are known.");
+  command->footer(
+      "  credo map datasets/office --out results/office_map                        with the ground truth\n"
+      "  credo map datasets/office --poses results/office/trajectory.tum --out results/office_map\n"
+      "  credo map intel.log.gz --out results/intel --resolution 0.1 --pictures results/intel_pictures");
+  auto o = std::make_shared<MapOptions>();
+  command->add_option("SOURCE", o->source, "a dataset folder, or a CARMEN log (plain or gzipped)")->required();
+  command->add_option("-o,--out", o->out, "folder for the map; default results/NAME_map");
+  command->add_option("--poses", o->poses, "a trajectory file, or groundtruth (default: ground truth; of a log, its own poses)");
+  command->add_option("--sensors", o->sensors, "what to map with: range, sonar or both")
+      ->delimiter(',')->check(CLI::IsMember({"range", "sonar"}))->capture_default_str();
+  command->add_option("--resolution", o->params.mapper.georeference.resolution_m, "side of a cell [m]")
+      ->check(CLI::Range(0.001, 10.0))->capture_default_str();
+  command->add_option("--readout", o->readout, "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
+      ->check(CLI::IsMember({"normalized", "raw"}))->capture_default_str();
+  command->add_option("--pictures", o->pictures, "folder for map.png");
+  command->add_flag("-f,--force", o->force, "replace a map that is already there");
+  add_format_option(*command, o->format);
+  command->callback([o] { execute(*o); });
+}
+
+}  // namespace credo::apps

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "apps/output.hpp"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace credo::apps {
+
+void add_format_option(CLI::App& command, OutputFormat& format) {
+  command.add_option("--format", format.name, "text for people, json for machines")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+}
+
+void print(const nlohmann::ordered_json& value) { std::printf("%s\n", value.dump(2).c_str()); }
+
+}  // namespace credo::apps

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace credo::apps {
+
+/// `--format text|json`, as chosen.
+struct OutputFormat {
+  std::string name = "text";
+  [[nodiscard]] bool json() const { return name == "json"; }
+};
+
+void add_format_option(CLI::App& command, OutputFormat& format);
+
+/// To standard output, indented; numbers that are not finite become null.
+void print(const nlohmann::ordered_json& value);
+
+}  // namespace credo::apps

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "apps/pipeline.hpp"
+
+#include "apps/terminal.hpp"
+#include "datasets/acquisitions.hpp"
+#include "evaluation/localization_score.hpp"
+
+namespace credo::apps {
+namespace {
+
+void insert_ranges(mapping::Mapper& mapper, const localization::Localizer& localizer,
+                   const sensors::Acquisition& acquisition) {
+  for (const auto& sweep : acquisition.sonar) mapper.insert(localizer.pose_at(sweep.time), sweep, acquisition.path);
+  for (const auto& scan : acquisition.scans) mapper.insert(localizer.pose_at(scan.time), scan, acquisition.path);
+}
+
+}  // namespace
+
+PipelineParams PipelineParams::of(perception::Method method) {
+  PipelineParams params;
+  params.observer.method = method;
+  params.localizer = params.localizer.with_method(method);
+  return params;
+}
+
+Outcome run(const datasets::Dataset& dataset, const PipelineParams& params,
+            const std::function<void(const Step&)>& after_each) {
+  const datasets::DatasetHeader& header = dataset.header;
+  const datasets::Acquisitions acquisitions(dataset);
+  perception::Observer observer(header.rig, params.observer);
+  localization::Localizer localizer(header.floor_plan.value_or(geometry::FloorPlan{}), header.rig, header.initial_pose,
+                                    params.localizer);
+  mapping::Mapper mapper(header.rig, params.mapper);
+  Outcome outcome;
+  double busy = 0.0;
+  for (std::size_t i = 0; i < acquisitions.size(); ++i) {
+    sensors::Acquisition acquisition = acquisitions.read(i);
+    const Stopwatch watch;
+    localizer.with_path(acquisition);
+    const perception::Scene& scene = observer.observe(acquisition);
+    const localization::Localization fix = localizer.update(scene, acquisition.motion);
+    busy += watch.seconds();
+    insert_ranges(mapper, localizer, acquisition);
+    outcome.conflict.add(scene);
+    const auto truth = evaluation::truth_at(dataset.truth, fix.time);
+    if (truth && fix.status != localization::Status::kInitializing) {
+      outcome.matches += evaluation::check_matches(scene, localizer.tracks(), localizer.map(), *truth);
+    }
+    outcome.history.push_back({.localization = fix,
+                               .tracks = results::sample(localizer.tracks()),
+                               .mean_conflict = scene.mean_conflict,
+                               .truth = truth});
+    after_each({i, acquisitions.size(), acquisition, scene, fix, localizer, outcome.history});
+  }
+  if (acquisitions.size() > 0) {
+    sensors::Acquisition rest = acquisitions.trailing();
+    localizer.with_path(rest);
+    insert_ranges(mapper, localizer, rest);
+    outcome.seconds_per_acquisition = busy / static_cast<double>(acquisitions.size());
+  }
+  outcome.mapped = mapper.counts();
+  outcome.map = mapper.take_grid();
+  return outcome;
+}
+
+}  // namespace credo::apps

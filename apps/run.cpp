@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "apps/run.hpp"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands.hpp"
+#include "apps/output.hpp"
+#include "apps/run_pictures.hpp"
+#include "apps/run_report.hpp"
+#include "apps/terminal.hpp"
+#include "results/config.hpp"
+#include "results/results_writer.hpp"
+
+namespace credo::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Pictures that belong into the results are drawn where these are being written.
+fs::path picture_folder(const fs::path& wanted, const fs::path& out, const fs::path& working, bool force) {
+  const fs::path inside = fs::absolute(wanted).lexically_normal().lexically_relative(fs::absolute(out).lexically_normal());
+  if (!inside.empty() && *inside.begin() != "..") return working / inside;
+  if (!force && fs::exists(wanted) && !fs::is_empty(wanted)) {
+    throw std::runtime_error(wanted.string() + ": is there already: choose another folder for the pictures, or add --force");
+  }
+  return wanted;
+}
+
+PipelineParams params_of(const RunOptions& options) {
+  PipelineParams params =
+      PipelineParams::of(options.method == "paper" ? perception::Method::kPaper : perception::Method::kDefault);
+  params.mapper.georeference.resolution_m = options.resolution_m;
+  return params;
+}
+
+void print_remarks(const datasets::Dataset& dataset) {
+  for (const std::string& remark : dataset.remarks) say_warning(remark);
+}
+
+void execute(const RunOptions& options, const OutputFormat& format) {
+  const datasets::Dataset dataset = datasets::Dataset::open(options.dataset);
+  print_remarks(dataset);
+  fs::path out;
+  const Outcome outcome = run_and_write(dataset, options, out);
+  if (format.json()) {
+    nlohmann::ordered_json report = to_json(outcome, dataset);
+    report["results"] = out.string();
+    print(report);
+    return;
+  }
+  std::printf("%s\nresults: %s\n", to_text(outcome, dataset).c_str(), out.string().c_str());
+  if (!options.pictures.empty()) std::printf("pictures: %s\n", options.pictures.c_str());
+}
+
+}  // namespace
+
+Outcome run_and_write(const datasets::Dataset& dataset, const RunOptions& options, fs::path& out) {
+  out = options.out.empty() ? fs::path("results") / dataset.header.name : fs::path(options.out);
+  const PipelineParams params = params_of(options);
+  results::ResultsWriter writer(out, options.force);
+  std::optional<RunPictures> pictures;
+  if (!options.pictures.empty()) {
+    pictures.emplace(picture_folder(options.pictures, out, writer.working_folder(), options.force), dataset,
+                     options.picture_moments);
+  }
+  Progress progress("running " + dataset.header.name);
+  const Outcome outcome = run(dataset, params, [&](const Step& step) {
+    writer.add(step.scene, step.fix, step.localizer.tracks());
+    if (pictures) pictures->draw(step);
+    progress.update(static_cast<double>(step.index + 1) / static_cast<double>(step.count));
+  });
+  if (pictures) pictures->draw_summary(outcome);
+  writer.add_map(outcome.map, {},
+                 options.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized);
+  writer.add_config(results::to_yaml(results::RunConfig{.version = CREDO_VERSION,
+                                                        .dataset = dataset.header.name,
+                                                        .observer = params.observer,
+                                                        .localizer = params.localizer,
+                                                        .mapper = params.mapper}));
+  writer.finish();
+  return outcome;
+}
+
+void add_run(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("run", "Localizes and maps a recorded or simulated drive.");
+  command->footer(
+      "  credo run datasets/office                                  results in results/office\n"
+      "  credo run datasets/office --out results/a --pictures results/a/pictures\n"
+      "  credo run datasets/office --method paper --out results/paper\n"
+      "  credo run datasets/office --format json --force | jq .score.mean_position_m");
+  auto options = std::make_shared<RunOptions>();
+  auto format = std::make_shared<OutputFormat>();
+  command->add_option("DATASET", options->dataset, "folder with a dataset.yaml")->required();
+  command->add_option("-o,--out", options->out, "folder for the results; default results/NAME");
+  command->add_option("--method", options->method, "the paper's method with its absolute breakpoints, or the default")
+      ->check(CLI::IsMember({"default", "paper"}))->capture_default_str();
+  command->add_option("--pictures", options->pictures, "folder for pictures of some acquisitions and of the whole run");
+  command->add_option("--moments", options->picture_moments, "how many acquisitions are drawn")
+      ->check(CLI::Range(0, 100000))->capture_default_str();
+  command->add_option("--resolution", options->resolution_m, "side of a map cell [m]")
+      ->check(CLI::Range(0.001, 10.0))->capture_default_str();
+  command->add_option("--readout", options->readout, "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
+      ->check(CLI::IsMember({"normalized", "raw"}))->capture_default_str();
+  command->add_flag("-f,--force", options->force, "replace results that are already there");
+  add_format_option(*command, *format);
+  command->callback([options, format] { execute(*options, *format); });
+}
+
+}  // namespace credo::apps

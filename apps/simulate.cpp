@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "apps/simulate.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <thread>
+
+#include "apps/commands.hpp"
+#include "apps/terminal.hpp"
+#include "datasets/dataset_writer.hpp"
+#include "datasets/map_server.hpp"
+#include "sim/simulation.hpp"
+
+namespace credo::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SimulateOptions {
+  std::string world;
+  std::string out;
+  std::uint64_t seed = 1;
+  bool force = false;
+};
+
+std::vector<fs::path> world_folders() {
+  std::error_code ignored;
+  const fs::path binary = fs::read_symlink("/proc/self/exe", ignored);
+  return {binary.parent_path() / ".." / "share" / "credo" / "worlds", fs::path(CREDO_WORLDS)};
+}
+
+/// A file, or the name of a world that comes with Credo.
+fs::path find_world(const std::string& name) {
+  if (fs::exists(name)) return name;
+  std::vector<std::string> known;
+  for (const fs::path& folder : world_folders()) {
+    if (fs::is_regular_file(folder / (name + ".yaml"))) return folder / (name + ".yaml");
+    if (!fs::is_directory(folder)) continue;
+    for (const auto& entry : fs::directory_iterator(folder)) known.push_back(entry.path().stem().string());
+  }
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  std::string message = name + ": no such world file; worlds that come with credo:";
+  for (const std::string& world : known) message += " " + world;
+  throw std::runtime_error(message);
+}
+
+datasets::DatasetHeader header_of(const sim::Simulation& simulation) {
+  const sim::World& world = simulation.world();
+  return {.name = world.name,
+          .description = world.description,
+          .license = "CC0-1.0",
+          .robot_radius_m = world.robot_radius_m,
+          .initial_pose = simulation.initial_pose(),
+          .acquisition_sensor = simulation.acquisition_sensor(),
+          .rig = simulation.rig(),
+          .floor_plan = simulation.floor_plan()};
+}
+
+void write_truth_map(const sim::TruthMap& truth, const fs::path& yaml) {
+  datasets::OccupancyMap map{.width = truth.width,
+                             .height = truth.height,
+                             .resolution_m = truth.resolution_m,
+                             .origin_x_m = truth.origin.x(),
+                             .origin_y_m = truth.origin.y(),
+                             .cells = {}};
+  map.cells.reserve(truth.cells.size());
+  for (const sim::TruthMap::Cell cell : truth.cells) {
+    map.cells.push_back(cell == sim::TruthMap::Cell::kOccupied ? datasets::OccupancyMap::kOccupied
+                        : cell == sim::TruthMap::Cell::kFree   ? datasets::OccupancyMap::kFree
+                                                               : datasets::OccupancyMap::kUnknown);
+  }
+  datasets::write_map(map, yaml);
+}
+
+sim::Sink sink_into(datasets::DatasetWriter& writer, Progress& progress) {
+  return {.image = [&](const sensors::OmniImage& image) { writer.add_image(image.time, image.pixels); },
+          .scan = [&](const sensors::RangeScan& scan) { writer.add_scan(scan); },
+          .sonar = [&](const sensors::SonarSweep& sweep) { writer.add_sonar(sweep); },
+          .odometry = [&](const sensors::OdometryReading& reading) { writer.add_odometry(reading); },
+          .truth = [&](sensors::Timestamp time, const geometry::Pose2& pose) { writer.add_truth({time, pose}); },
+          .verticals =
+              [&](sensors::Timestamp time, std::span<const sim::TrueVertical> verticals) {
+                for (const sim::TrueVertical& v : verticals) {
+                  writer.add_true_vertical({time, v.azimuth_rad, v.visible_share, v.contrast});
+                }
+              },
+          .event = [&](sensors::Timestamp time, std::string_view name) { writer.add_event({time, std::string(name)}); },
+          .progress = [&](double share) { progress.update(share); }};
+}
+
+}  // namespace
+
+void simulate_into(const sim::World& world, std::uint64_t seed, const fs::path& out, bool force) {
+  const sim::Simulation simulation(world, seed);
+  datasets::DatasetWriter writer(out, header_of(simulation), {.overwrite = force});
+  Progress progress("simulating " + world.name);
+  simulation.run(sink_into(writer, progress), static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  write_truth_map(simulation.truth_map(), writer.working_folder() / "truth_map.yaml");
+  writer.finish();
+}
+
+void add_simulate(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("simulate", "Plays a world into a dataset, with its ground truth.");
+  command->footer(
+      "  credo simulate office --out datasets/office              a world that comes with credo\n"
+      "  credo simulate my_world.yaml --out datasets/mine --seed 7");
+  auto options = std::make_shared<SimulateOptions>();
+  command->add_option("WORLD", options->world, "a world file (YAML), or the name of a world that comes with credo")->required();
+  command->add_option("-o,--out", options->out, "folder for the dataset")->required();
+  command->add_option("--seed", options->seed, "of all that is random; the same seed gives the same bytes")->capture_default_str();
+  command->add_flag("-f,--force", options->force, "replace a dataset that is already there");
+  command->callback([options] {
+    simulate_into(sim::load_world(find_world(options->world)), options->seed, options->out, options->force);
+    std::printf("dataset: %s\n", options->out.c_str());
+  });
+}
+
+}  // namespace credo::apps

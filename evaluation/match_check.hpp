@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <span>
+
+#include "localization/landmark_map.hpp"
+#include "perception/scene.hpp"
+#include "tracking/track.hpp"
+
+namespace credo::evaluation {
+
+struct MatchCheckParams {
+  double sigmas = 5.0;  ///< of the observation; and by more than
+  double angle_deg = 1.0;
+  double distance_m = 0.1;
+};
+
+/// Tracks that were matched to a landmark and seen, and how many of them to a wrong one.
+struct MatchCounts {
+  long matches = 0;
+  long wrong = 0;
+
+  [[nodiscard]] double wrong_share() const {
+    return matches > 0 ? static_cast<double>(wrong) / static_cast<double>(matches) : 0.0;
+  }
+  MatchCounts& operator+=(const MatchCounts& other) {
+    matches += other.matches;
+    wrong += other.wrong;
+    return *this;
+  }
+};
+
+/// Whether azimuth or range of a landmark, predicted from the true pose, differs from the observation by more than
+/// `sigmas` standard deviations and by more than `angle_deg` or `distance_m`. Of a wall it is the direction of its line and
+/// the distance across it.
+/// \param T_map_base  the true pose at the time of the scene
+[[nodiscard]] bool is_wrong_match(const perception::Primitive& seen, const Eigen::Vector2d& camera_origin,
+                                  const localization::LandmarkMap& map, tracking::LandmarkId landmark,
+                                  const geometry::Pose2& T_map_base, const MatchCheckParams& params = {});
+
+/// Over the tracks that are seen in the scene and have a landmark.
+[[nodiscard]] MatchCounts check_matches(const perception::Scene& scene, std::span<const tracking::Track> tracks,
+                                        const localization::LandmarkMap& map, const geometry::Pose2& T_map_base,
+                                        const MatchCheckParams& params = {});
+
+}  // namespace credo::evaluation
