@@ -18,13 +18,15 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() 
 
 double azimuth_of(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
-/// The true end lies within a beam of where the range finder places it; its line's error counts where it is seen sideways.
+/// The true end lies within a beam of where the range finder places it; its line's error counts where it is seen
+/// sideways.
 SegmentEndView view_of_end(const RangeSegment& segment, const Eigen::Vector2d& end, const Eigen::Vector2d& origin,
                            double increment) {
   const Eigen::Vector2d offset = end - origin;
   const double range = std::max(1e-3, offset.norm());
   const Eigen::Vector2d sideways = Eigen::Vector2d(-offset.y(), offset.x()) / range;
-  const double by_line = sideways.dot(segment.fit.line.normal()) * std::sqrt(variance_at(segment.fit.line, end)) / range;
+  const double by_line =
+      sideways.dot(segment.fit.line.normal()) * std::sqrt(variance_at(segment.fit.line, end)) / range;
   return {.azimuth = azimuth_of(offset), .sigma = std::sqrt(by_line * by_line + increment * increment / 12.0)};
 }
 
@@ -50,7 +52,8 @@ void claim_ends(std::span<const RadialLine> radial_lines, const CooperationParam
 }
 
 /// Where both saw one end, the camera's bearing places it.
-void move_end(const RadialLine& line, const Eigen::Vector2d& origin, double min_sine, bool at_b, RangeSegment& segment) {
+void move_end(const RadialLine& line, const Eigen::Vector2d& origin, double min_sine, bool at_b,
+              RangeSegment& segment) {
   const auto point = intersect_ray(segment.fit.line, origin, line.azimuth, line.sigma, min_sine);
   if (!point) return;
   const geometry::Segment moved = at_b ? geometry::Segment{segment.extent.a, point->position}
@@ -128,11 +131,12 @@ void cooperate(std::span<const RadialLine> radial_lines, const Eigen::Vector2d& 
     const Passage passage = pass(radial_lines[l], camera_origin, params.min_sine, segments);
     if (passage.segment < 0) continue;
     result.uses[l].segment = passage.segment;
-    result.cuts.push_back({.segment = passage.segment,
-                           .radial_line = static_cast<int>(l),
-                           .first_point = first_point_beyond(points, segments[static_cast<std::size_t>(passage.segment)],
-                                                             camera_origin, radial_lines[l].azimuth),
-                           .position = passage.position});
+    result.cuts.push_back(
+        {.segment = passage.segment,
+         .radial_line = static_cast<int>(l),
+         .first_point = first_point_beyond(points, segments[static_cast<std::size_t>(passage.segment)], camera_origin,
+                                           radial_lines[l].azimuth),
+         .position = passage.position});
   }
   std::sort(result.cuts.begin(), result.cuts.end(), [&](const SegmentCut& x, const SegmentCut& y) {
     if (x.segment != y.segment) return x.segment < y.segment;

@@ -12,15 +12,31 @@ namespace credo::perception {
 CriteriaParams CriteriaParams::paper() {
   CriteriaParams params;
   params.absolute = true;
-  params.alignment = {.max_yes = 0.70, .yes_full_until = 0.010, .yes_zero_from = 0.040,
-                      .max_no = 0.40, .no_zero_until = 0.030, .no_full_from = 0.080};  // m
-  params.support = {.max_yes = 0.0, .yes_full_until = 9.0, .yes_zero_from = 8.0,
-                    .max_no = 0.60, .no_zero_until = 8.0, .no_full_from = 3.0};
-  params.density = {.max_yes = 0.60, .yes_full_until = 20.0, .yes_zero_from = 5.0,
-                    .max_no = 0.30, .no_zero_until = 8.0, .no_full_from = 3.0};  // 1/m
+  params.alignment = {.max_yes = 0.70,
+                      .yes_full_until = 0.010,
+                      .yes_zero_from = 0.040,
+                      .max_no = 0.40,
+                      .no_zero_until = 0.030,
+                      .no_full_from = 0.080};  // m
+  params.support = {.max_yes = 0.0,
+                    .yes_full_until = 9.0,
+                    .yes_zero_from = 8.0,
+                    .max_no = 0.60,
+                    .no_zero_until = 8.0,
+                    .no_full_from = 3.0};
+  params.density = {.max_yes = 0.60,
+                    .yes_full_until = 20.0,
+                    .yes_zero_from = 5.0,
+                    .max_no = 0.30,
+                    .no_zero_until = 8.0,
+                    .no_full_from = 3.0};  // 1/m
   params.cases = {{{0.0, 0.3}, {0.15, 0.2}, {0.3, 0.1}, {0.5, 0.05}, {0.7, 0.0}}};
-  params.gray = {.max_yes = 0.50, .yes_full_until = 5.0, .yes_zero_from = 15.0,
-                 .max_no = 0.40, .no_zero_until = 10.0, .no_full_from = 40.0};  // grey levels
+  params.gray = {.max_yes = 0.50,
+                 .yes_full_until = 5.0,
+                 .yes_zero_from = 15.0,
+                 .max_no = 0.40,
+                 .no_zero_until = 10.0,
+                 .no_full_from = 40.0};  // grey levels
   return params;
 }
 

@@ -17,10 +17,10 @@ namespace credo::perception {
 struct SegmentMeasures {
   double mean_residual_m = std::numeric_limits<double>::quiet_NaN();
   double mean_residual_sigmas = std::numeric_limits<double>::quiet_NaN();  ///< in expected standard deviations
-  int support = 0;                    ///< points
-  double density_per_m = 0.0;         ///< points along the segment
-  double relative_density = 0.0;      ///< 1: a wall seen head-on at 2 m by the same scanner
-  int endpoint_case = 0;              ///< 1..5; 0: there is no camera
+  int support = 0;                                                         ///< points
+  double density_per_m = 0.0;                                              ///< points along the segment
+  double relative_density = 0.0;  ///< 1: a wall seen head-on at 2 m by the same scanner
+  int endpoint_case = 0;          ///< 1..5; 0: there is no camera
   double mean_gray_deviation = std::numeric_limits<double>::quiet_NaN();  ///< from the straight line [grey levels]
   double mean_gray_sigmas = std::numeric_limits<double>::quiet_NaN();     ///< the same in expected standard deviations
 };
@@ -28,21 +28,37 @@ struct SegmentMeasures {
 /// Belief shapes of the five criteria. The figures that held the paper's are lost; these are ours (docs/equations.md).
 struct CriteriaParams {
   /// 1: mean |residual| of the points, in expected standard deviations. Normal noise gives 0.8.
-  evidence::RampBelief alignment{.max_yes = 0.8, .yes_full_until = 1.0, .yes_zero_from = 2.5,
-                                 .max_no = 0.5, .no_zero_until = 2.0, .no_full_from = 4.0};
+  evidence::RampBelief alignment{.max_yes = 0.8,
+                                 .yes_full_until = 1.0,
+                                 .yes_zero_from = 2.5,
+                                 .max_no = 0.5,
+                                 .no_zero_until = 2.0,
+                                 .no_full_from = 4.0};
   /// 2: number of points.
-  evidence::RampBelief support{.max_yes = 0.6, .yes_full_until = 12.0, .yes_zero_from = 3.0,
-                               .max_no = 0.4, .no_zero_until = 6.0, .no_full_from = 3.0};
+  evidence::RampBelief support{.max_yes = 0.6,
+                               .yes_full_until = 12.0,
+                               .yes_zero_from = 3.0,
+                               .max_no = 0.4,
+                               .no_zero_until = 6.0,
+                               .no_full_from = 3.0};
   /// 3: density of points, relative to a wall seen head-on at 2 m. Far is ignorance, not denial.
-  evidence::RampBelief density{.max_yes = 0.7, .yes_full_until = 1.0, .yes_zero_from = 0.2,
-                               .max_no = 0.0, .no_zero_until = 0.0, .no_full_from = 0.0};
+  evidence::RampBelief density{.max_yes = 0.7,
+                               .yes_full_until = 1.0,
+                               .yes_zero_from = 0.2,
+                               .max_no = 0.0,
+                               .no_zero_until = 0.0,
+                               .no_full_from = 0.0};
   /// 4: the five cases of the ends, (YES, NO) each.
   std::array<std::array<double, 2>, 5> cases{{{0.10, 0.20}, {0.30, 0.10}, {0.50, 0.0}, {0.65, 0.0}, {0.80, 0.0}}};
   /// 5: mean deviation of the grey levels over the segment from a straight line, in expected standard deviations.
-  evidence::RampBelief gray{.max_yes = 0.6, .yes_full_until = 2.0, .yes_zero_from = 8.0,
-                            .max_no = 0.4, .no_zero_until = 8.0, .no_full_from = 24.0};
-  bool absolute = false;  ///< breakpoints in metres, points per metre and grey levels instead
-  double head_on_m = 2.0; ///< the wall that densities are relative to
+  evidence::RampBelief gray{.max_yes = 0.6,
+                            .yes_full_until = 2.0,
+                            .yes_zero_from = 8.0,
+                            .max_no = 0.4,
+                            .no_zero_until = 8.0,
+                            .no_full_from = 24.0};
+  bool absolute = false;   ///< breakpoints in metres, points per metre and grey levels instead
+  double head_on_m = 2.0;  ///< the wall that densities are relative to
 
   /// The shapes with absolute breakpoints that go with the paper's method.
   [[nodiscard]] static CriteriaParams paper();

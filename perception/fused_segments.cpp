@@ -28,7 +28,8 @@ Sector sector_of(const geometry::Segment& extent, const Eigen::Vector2d& origin)
   return {from, std::max(0.0, geometry::angle_difference(std::atan2(b.y(), b.x()), from))};
 }
 
-/// The fusion of five criteria: all at once, then the conflict is moved to ignorance, once (Clerentin et al., sec. 3.1).
+/// The fusion of five criteria: all at once, then the conflict is moved to ignorance, once (Clerentin et al.,
+/// sec. 3.1).
 FusedBinaryMass judge(SegmentMeasures& measures, double gray_noise, const CriteriaParams& params,
                       std::array<evidence::BinaryMass, 5>& criteria) {
   measures.mean_gray_sigmas = measures.mean_gray_deviation / std::max(0.1, gray_noise);

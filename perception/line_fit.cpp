@@ -102,8 +102,7 @@ void set_covariance(std::span<const ScanPoint> points, const PointNoise& noise, 
   const double freedom = std::max(1, fit.support - 2);
   const double excess = fit.support > 4 ? std::max(1.0, fit.chi2 / freedom - 2.0 * std::sqrt(2.0 / freedom)) : 1.0;
   fit.line.sigma_across = information > 0.0 ? std::sqrt(excess / information) : std::sqrt(1.0 / 1e-12);
-  fit.line.sigma_angle =
-      moment > 0.0 ? std::min(kLargestSigmaAngle, std::sqrt(excess / moment)) : kLargestSigmaAngle;
+  fit.line.sigma_angle = moment > 0.0 ? std::min(kLargestSigmaAngle, std::sqrt(excess / moment)) : kLargestSigmaAngle;
 }
 
 }  // namespace
@@ -147,7 +146,8 @@ LineFit fit_line(std::span<const ScanPoint> points, const PointNoise& noise) {
   const Eigen::Vector2d anchor = points.front().position;
   LineEstimate line;
   Moments first;
-  for (const ScanPoint& point : points) first.add(1.0 / (point.sigma_m * point.sigma_m + 1e-8), point.position - anchor);
+  for (const ScanPoint& point : points)
+    first.add(1.0 / (point.sigma_m * point.sigma_m + 1e-8), point.position - anchor);
   bool spread = set_line(first, anchor, line);
   bool outliers = false;  // L1 steps are for scans that need them
   for (int iteration = 0; spread && points.size() > 2 && iteration < noise.params.iterations; ++iteration) {

@@ -13,10 +13,10 @@
 namespace credo::perception {
 
 struct LineFitParams {
-  double beam_sigma_rad = 0.001;  ///< 1-sigma of a beam's direction (Pfister et al., ICRA 2003)
-  double flatness_m = 0.002;      ///< 1-sigma of a wall about its line: plaster, paint, skirting
-  double full_weight_until = 2.5; ///< |residual| in expected standard deviations
-  double no_weight_from = 4.5;    ///< linear between
+  double beam_sigma_rad = 0.001;   ///< 1-sigma of a beam's direction (Pfister et al., ICRA 2003)
+  double flatness_m = 0.002;       ///< 1-sigma of a wall about its line: plaster, paint, skirting
+  double full_weight_until = 2.5;  ///< |residual| in expected standard deviations
+  double no_weight_from = 4.5;     ///< linear between
   int iterations = 6;
 };
 
@@ -26,7 +26,8 @@ struct PointNoise {
   LineFitParams params;
 
   /// Variance of a reading across a line with the given unit normal, if the true range is `range_m`. [m^2]
-  [[nodiscard]] double variance_across(const Eigen::Vector2d& ray, double range_m, const Eigen::Vector2d& normal) const {
+  [[nodiscard]] double variance_across(const Eigen::Vector2d& ray, double range_m,
+                                       const Eigen::Vector2d& normal) const {
     const double along = normal.dot(ray);
     const double kr2 = range.k_per_m * range_m * range_m;
     const double beam = params.beam_sigma_rad * range_m;
@@ -38,17 +39,17 @@ struct PointNoise {
 /// A line through range points and how well it explains them.
 struct LineFit {
   geometry::LineEstimate line;
-  double chi2 = 0.0;                 ///< sum of the squared residuals in expected standard deviations, each at most no_weight_from^2
-  int support = 0;                   ///< points with full or part weight
-  double mean_residual_sigmas = 0.0; ///< mean |residual| of the support, in expected standard deviations
+  double chi2 = 0.0;  ///< sum of the squared residuals in expected standard deviations, each at most no_weight_from^2
+  int support = 0;    ///< points with full or part weight
+  double mean_residual_sigmas = 0.0;  ///< mean |residual| of the support, in expected standard deviations
   double mean_residual_m = 0.0;
 };
 
-/// Weighted total least squares with robust weights: each point counts with the inverse of its variance across the line, taken
-/// at the range that the line predicts for its beam (at the measured range, short readings would weigh more and pull the
-/// line towards the sensor). The covariance is that of Pfister et al., ICRA 2003; it grows with the residuals where they
-/// are larger than the sensor's noise law can explain.
-/// One point, or points that coincide, give a line across the ray with a sigma_angle of pi/2; none gives support 0.
+/// Weighted total least squares with robust weights: each point counts with the inverse of its variance across the
+/// line, taken at the range that the line predicts for its beam (at the measured range, short readings would weigh more
+/// and pull the line towards the sensor). The covariance is that of Pfister et al., ICRA 2003; it grows with the
+/// residuals where they are larger than the sensor's noise law can explain. One point, or points that coincide, give a
+/// line across the ray with a sigma_angle of pi/2; none gives support 0.
 [[nodiscard]] LineFit fit_line(std::span<const sensors::ScanPoint> points, const PointNoise& noise);
 
 /// The residuals of points about a given line, as fit_line reports them.
@@ -59,7 +60,8 @@ struct LineFit {
 [[nodiscard]] double residual_sigmas(const sensors::ScanPoint& point, const geometry::LineEstimate& line,
                                      const PointNoise& noise);
 
-/// Range at which the point's beam meets the line; the measured one if it meets it grazing or not within half and twice that.
+/// Range at which the point's beam meets the line; the measured one if it meets it grazing or not within half and twice
+/// that.
 [[nodiscard]] double predicted_range(const sensors::ScanPoint& point, const geometry::LineEstimate& line);
 
 /// Variance across the line of the line's own position beside a point. [m^2]

@@ -33,8 +33,8 @@ struct ObserverParams {
   Method method = Method::kDefault;
   RadialLineParams radial_lines;
   LineFitParams line_fit;
-  SceneParams scene;                        ///< used by Method::kDefault
-  SceneParams paper = SceneParams::paper(); ///< used by Method::kPaper
+  SceneParams scene;                         ///< used by Method::kDefault
+  SceneParams paper = SceneParams::paper();  ///< used by Method::kPaper
 };
 
 /// Acquisition -> Scene: radial lines, range segments, their fusion, five criteria, typed primitives with belief

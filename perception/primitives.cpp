@@ -173,8 +173,8 @@ class Namer {
     const double gap = params_.absolute ? s.gap_to_next_m : s.gap_to_next_sigmas;
     if (!std::isfinite(gap)) return;
     const double angle = interior_angle_of(s, t);
-    const double sigma = std::sqrt(s.fit.line.sigma_angle * s.fit.line.sigma_angle +
-                                   t.fit.line.sigma_angle * t.fit.line.sigma_angle);
+    const double sigma =
+        std::sqrt(s.fit.line.sigma_angle * s.fit.line.sigma_angle + t.fit.line.sigma_angle * t.fit.line.sigma_angle);
     const JunctionType type = junction_type(angle, sigma, gap, params_);
     if (type.type == PrimitiveType::kWall || type.believed < params_.least_believed) return;
     if (type.type == PrimitiveType::kOther) return add_gap(i, j, type);
@@ -311,7 +311,8 @@ JunctionType junction_type(double interior_angle, double sigma_angle, double gap
 }
 
 JunctionType free_end_type(SegmentEnd end, double jump_sigmas, const PrimitiveParams& params) {
-  // The angle on the robot's side is more than 180 degrees, whatever the hidden face does: an edge, or none of the three.
+  // The angle on the robot's side is more than 180 degrees, whatever the hidden face does: an edge, or none of the
+  // three.
   evidence::WhichKind which;
   which.one_or_other = {0.0, params.angle_committed, 0.0};
   which.unknown = 1.0 - params.angle_committed;

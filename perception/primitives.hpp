@@ -15,8 +15,8 @@ namespace credo::perception {
 
 /// What makes a corner, an edge, a wall or another landmark, and how far it is believed (Clerentin et al., sec. 3.2).
 struct PrimitiveParams {
-  // First criterion: the interior angle's deviation from 180 degrees. Up to level_until a wall goes on, from level_zero it
-  // does not; from turn_from it is a corner or an edge: between, a chain of faces may be a curve.
+  // First criterion: the interior angle's deviation from 180 degrees. Up to level_until a wall goes on, from level_zero
+  // it does not; from turn_from it is a corner or an edge: between, a chain of faces may be a curve.
   double angle_committed = 0.9;
   double level_until_rad = 0.1745;
   double level_zero_rad = 0.4363;
@@ -29,19 +29,27 @@ struct PrimitiveParams {
   // An end with something farther beside it: one face of an edge. How far the jump speaks for it, in expected standard
   // deviations of the two ranges' difference.
   double free_end_committed = 0.6;
-  double open_end_committed = 0.3;   ///< the same for an end beside which nothing came back
+  double open_end_committed = 0.3;  ///< the same for an end beside which nothing came back
   double free_end_none_sigmas = 3.0;
   double free_end_full_sigmas = 9.0;
-  double least_believed = 0.1;     ///< Cr of the type of a junction, at least
-  int free_end_support = 4;        ///< points, at least, of the face that ends there
-  double free_end_sine = 0.17;     ///< of the angle between beam and face, at least
+  double least_believed = 0.1;  ///< Cr of the type of a junction, at least
+  int free_end_support = 4;     ///< points, at least, of the face that ends there
+  double free_end_sine = 0.17;  ///< of the angle between beam and face, at least
   // A radial line without a segment: belief from the line itself.
-  evidence::RampBelief line_support{.max_yes = 0.5, .yes_full_until = 0.7, .yes_zero_from = 0.2,
-                                    .max_no = 0.1, .no_zero_until = 0.3, .no_full_from = 0.1};  ///< by visible share
-  evidence::RampBelief line_contrast{.max_yes = 0.5, .yes_full_until = 20.0, .yes_zero_from = 4.0,
-                                     .max_no = 0.1, .no_zero_until = 6.0, .no_full_from = 2.0};  ///< in grey-level sigmas
+  evidence::RampBelief line_support{.max_yes = 0.5,
+                                    .yes_full_until = 0.7,
+                                    .yes_zero_from = 0.2,
+                                    .max_no = 0.1,
+                                    .no_zero_until = 0.3,
+                                    .no_full_from = 0.1};  ///< by visible share
+  evidence::RampBelief line_contrast{.max_yes = 0.5,
+                                     .yes_full_until = 20.0,
+                                     .yes_zero_from = 4.0,
+                                     .max_no = 0.1,
+                                     .no_zero_until = 6.0,
+                                     .no_full_from = 2.0};  ///< in grey-level sigmas
   // The paper's method.
-  bool absolute = false;         ///< angles by evidence::which_kind in degrees, distances in metres, type other for a gap
+  bool absolute = false;  ///< angles by evidence::which_kind in degrees, distances in metres, type other for a gap
   bool walls_are_unions = true;  ///< of collinear touching sub-segments; else each of these is a wall of its own
 
   [[nodiscard]] static PrimitiveParams paper();
@@ -78,8 +86,9 @@ struct JunctionType {
 [[nodiscard]] evidence::FusedBinaryMass radial_line_existence(const RadialLine& line, double gray_noise,
                                                               const PrimitiveParams& params = {});
 
-/// Fills Scene::primitives from its points, segments, radial lines and `parts`: walls, junctions, free ends, and last, each as an
-/// `other`, the radial lines that are at none of these: on a segment, or as bearings only. No radial line is at two.
+/// Fills Scene::primitives from its points, segments, radial lines and `parts`: walls, junctions, free ends, and last,
+/// each as an `other`, the radial lines that are at none of these: on a segment, or as bearings only. No radial line is
+/// at two.
 void name_primitives(const SceneParts& parts, const PrimitiveParams& params, Scene& scene);
 
 }  // namespace credo::perception

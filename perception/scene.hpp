@@ -27,7 +27,8 @@ struct RadialLine {
 /// Which sensor saw an end of a segment (Clerentin et al., sec. 3.1).
 enum class EndpointSource { kRangeFinder, kCamera, kBoth };
 
-/// What a segment's end is. Ends by occlusion or by the limit of sight are no places of the world: they move with the robot.
+/// What a segment's end is. Ends by occlusion or by the limit of sight are no places of the world: they move with the
+/// robot.
 enum class SegmentEnd {
   kJoined,    ///< meets the neighbouring segment
   kFree,      ///< something farther is seen beside it: a vertical edge of the world
@@ -36,8 +37,8 @@ enum class SegmentEnd {
   kUnseen     ///< no readings beside it
 };
 
-/// Mean grey level of five concentric circles, by azimuth (Clerentin et al., sec. 3.1, fifth criterion). Bin i holds the
-/// azimuths around 2 pi i / values.size(), in the directions of the base frame, seen from the camera.
+/// Mean grey level of five concentric circles, by azimuth (Clerentin et al., sec. 3.1, fifth criterion). Bin i holds
+/// the azimuths around 2 pi i / values.size(), in the directions of the base frame, seen from the camera.
 struct GrayCurve {
   std::vector<float> values;  ///< empty: no image
   double noise = 0.0;         ///< expected 1-sigma of a value [grey levels]
@@ -45,18 +46,18 @@ struct GrayCurve {
 
 /// A segment of the range scan, cut and sharpened by the radial lines, with the belief that it exists.
 struct FusedSegment {
-  geometry::Segment extent{};    ///< in the base frame, a before b counter-clockwise
-  geometry::LineEstimate line{}; ///< fitted to all its points
-  int first_point = 0;           ///< into Scene::points, inclusive
-  int last_point = 0;            ///< inclusive
+  geometry::Segment extent{};     ///< in the base frame, a before b counter-clockwise
+  geometry::LineEstimate line{};  ///< fitted to all its points
+  int first_point = 0;            ///< into Scene::points, inclusive
+  int last_point = 0;             ///< inclusive
   EndpointSource source_a = EndpointSource::kRangeFinder;
   EndpointSource source_b = EndpointSource::kRangeFinder;
-  int radial_line_a = -1;        ///< index into Scene::radial_lines, -1 where the end is the range finder's
+  int radial_line_a = -1;  ///< index into Scene::radial_lines, -1 where the end is the range finder's
   int radial_line_b = -1;
-  int endpoint_case = 1;         ///< 1..5 (Clerentin et al., fig. 5)
+  int endpoint_case = 1;                   ///< 1..5 (Clerentin et al., fig. 5)
   SegmentEnd end_a = SegmentEnd::kUnseen;  ///< kJoined where a radial line has cut it
   SegmentEnd end_b = SegmentEnd::kUnseen;
-  int support = 0;               ///< points that agree with the line; the other ones between first and last are outliers
+  int support = 0;  ///< points that agree with the line; the other ones between first and last are outliers
   std::array<evidence::BinaryMass, 5> criteria;  ///< m_1 .. m_5
   evidence::BinaryMass existence{};              ///< their fusion, conflict moved to ignorance once
   double conflict = 0.0;                         ///< what was moved
@@ -72,10 +73,11 @@ struct Primitive {
   bool bearing_only = false;  ///< a radial line without a segment: no range, no position
   double range_m = 0.0;       ///< of `position` from the base origin
   double sigma_range_m = 0.0;
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();        ///< base frame; a wall's is the middle of its extent
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< base frame; a wall's is the middle of its extent
   Eigen::Matrix2d position_covariance = Eigen::Matrix2d::Zero();
-  double interior_angle = 0.0;  ///< of a junction, on the robot's side, (0, 2 pi) [rad]; 0: less than two faces are seen
-  int radial_line = -1;         ///< index into Scene::radial_lines: its bearing is the camera's
+  double interior_angle =
+      0.0;               ///< of a junction, on the robot's side, (0, 2 pi) [rad]; 0: less than two faces are seen
+  int radial_line = -1;  ///< index into Scene::radial_lines: its bearing is the camera's
   // Walls: the union of collinear touching segments.
   geometry::Segment extent{};
   geometry::LineEstimate line{};
@@ -85,11 +87,12 @@ struct Primitive {
   SegmentEnd end_b = SegmentEnd::kUnseen;
   int support = 0;  ///< points that a wall's line is fitted to
   evidence::BinaryMass existence{};
-  double conflict = 0.0;     ///< met on the way to `existence`
-  int endpoint_case = 0;     ///< the best of its segments, 1..5; 0 without a segment
+  double conflict = 0.0;  ///< met on the way to `existence`
+  int endpoint_case = 0;  ///< the best of its segments, 1..5; 0 without a segment
 };
 
-/// Mean conflict of the criteria two by two, over the segments: pair[i][j] = m_i(YES) m_j(NO) + m_i(NO) m_j(YES), i != j.
+/// Mean conflict of the criteria two by two, over the segments: pair[i][j] = m_i(YES) m_j(NO) + m_i(NO) m_j(YES), i !=
+/// j.
 struct ConflictReport {
   std::array<std::array<double, 5>, 5> pair{};
 };
@@ -98,7 +101,7 @@ struct ConflictReport {
 struct Scene {
   sensors::Timestamp time = 0;
   Eigen::Vector2d camera_origin = Eigen::Vector2d::Zero();  ///< base frame; where the bearings of radial lines start
-  std::vector<RadialLine> radial_lines;  ///< by azimuth
+  std::vector<RadialLine> radial_lines;                     ///< by azimuth
   GrayCurve gray;
   std::vector<sensors::ScanPoint> points;  ///< base frame at `time`, counter-clockwise
   std::vector<FusedSegment> segments;      ///< counter-clockwise
@@ -107,7 +110,7 @@ struct Scene {
   Eigen::Matrix3d carry_covariance = Eigen::Matrix3d::Zero();
   double mean_conflict = 0.0;  ///< of the five criteria over the segments
   ConflictReport conflicts;
-  bool camera_seen = false;    ///< an image was there and usable
+  bool camera_seen = false;  ///< an image was there and usable
   bool range_finder_seen = false;
   double saturated_share = 0.0;  ///< of the annulus
 };

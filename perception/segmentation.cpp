@@ -14,7 +14,9 @@ namespace {
 using geometry::LineEstimate;
 using sensors::ScanPoint;
 
-constexpr double kFarthest = 1e5;  // m; no range finder reads that
+constexpr double kFarthest = 1e5;      // m; no range finder reads that
+constexpr double kMedianSigma = 0.67;  // of the median of three, in standard deviations of one
+constexpr int kRoughAngle = 6;         // points; the angle of fewer is too rough to be linear
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double median_of_three(double a, double b, double c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
@@ -27,12 +29,6 @@ Eigen::Vector2d foot(const LineEstimate& line, const Eigen::Vector2d& point) {
 /// Distance along the line from one beam to the next.
 double spacing_at(const ScanPoint& point, const LineEstimate& line, double increment, double min_sine) {
   return predicted_range(point, line) * increment / std::max(min_sine, std::abs(line.normal().dot(point.ray)));
-}
-
-/// Variance of an end's place: the wall may end anywhere up to the next beam, and the last reading is noisy along the line.
-double end_variance(const ScanPoint& point, const LineEstimate& line, double spacing) {
-  const double along = line.direction().dot(point.ray) * point.sigma_m;
-  return spacing * spacing / 3.0 + along * along + variance_at(line, point.position);
 }
 
 }  // namespace
@@ -114,7 +110,7 @@ int Segmenter::split_point(const Points& points, int first, int last) const {
     if (params_.split_m > 0.0) return distance;
     return distance / std::sqrt(noise_.variance_across(points[k].ray, points[k].range_m, normal));
   };
-  const double threshold = params_.split_m > 0.0 ? params_.split_m : params_.split_sigmas;
+  const double threshold = params_.split_m > 0.0 ? params_.split_m : kMedianSigma * params_.split_sigmas;
   int farthest = -1;
   double most = threshold;
   double before = 0.0, here = deviation(first + 1);
@@ -144,8 +140,17 @@ void Segmenter::split(const Points& points, int first, int last) {
   split(points, at + 1, last);
 }
 
+/// Squared residual in expected standard deviations, the line's own error included; at most that of an outlier.
+double Segmenter::chi2_of(const ScanPoint& point, const LineEstimate& line) const {
+  const double most = noise_.params.no_weight_from * noise_.params.no_weight_from;
+  const Eigen::Vector2d normal = line.normal();
+  const double residual = normal.dot(point.position - line.centroid);
+  const double variance = noise_.variance_across(point.ray, predicted_range(point, line), normal);
+  return std::min(most, residual * residual / (variance + variance_at(line, point.position)));
+}
+
 /// How much chi-square would grow if two pieces were one line: the Mahalanobis distance of their lines, compared at the
-/// second one's centroid.
+/// second one's centroid. The angle of a few points is too rough for that: they are held against the other's line.
 double Segmenter::merge_cost(const Points& points, const Piece& a, const Piece& b) const {
   if (a.size() + b.size() < 3) return kNever;
   const ScanPoint &end = points[a.last], &begin = points[b.first];
@@ -155,6 +160,12 @@ double Segmenter::merge_cost(const Points& points, const Piece& a, const Piece& 
   const bool gap_counts = beams > 1 + stray;
   if (gap_counts && (end.position - begin.position).squaredNorm() > params_.merge_gap_m * params_.merge_gap_m)
     return kNever;
+  if (std::min(a.size(), b.size()) < kRoughAngle) {
+    const Piece &few = a.size() < b.size() ? a : b, &many = a.size() < b.size() ? b : a;
+    double growth = -few.fit.chi2;
+    for (int k = few.first; k <= few.last; ++k) growth += chi2_of(points[k], many.fit.line);
+    return growth;
+  }
   const LineEstimate &one = a.fit.line, &two = b.fit.line;
   const Eigen::Vector2d between = two.centroid - one.centroid;
   const double s = one.direction().dot(between);
@@ -207,20 +218,14 @@ void Segmenter::merge(const Points& points) {
 }
 
 /// Each reading of first..last goes to the line that explains it; the lines' own errors count, for they are prolonged.
-Segmenter::Boundary Segmenter::boundary(const Points& points, const Piece& a, const Piece& b, int first, int last) const {
-  const double most = noise_.params.no_weight_from * noise_.params.no_weight_from;
-  const auto chi2 = [&](const ScanPoint& point, const LineEstimate& line) {
-    const Eigen::Vector2d normal = line.normal();
-    const double residual = normal.dot(point.position - line.centroid);
-    const double variance = noise_.variance_across(point.ray, predicted_range(point, line), normal);
-    return std::min(most, residual * residual / (variance + variance_at(line, point.position)));
-  };
+Segmenter::Boundary Segmenter::boundary(const Points& points, const Piece& a, const Piece& b, int first,
+                                        int last) const {
   Boundary best{.last_of_a = first - 1, .chi2 = 0.0};
   double balance = 0.0, least = 0.0;
   for (int k = first; k <= last; ++k) {
-    const double to_b = chi2(points[k], b.fit.line);
+    const double to_b = chi2_of(points[k], b.fit.line);
     best.chi2 += to_b;
-    balance += chi2(points[k], a.fit.line) - to_b;
+    balance += chi2_of(points[k], a.fit.line) - to_b;
     if (balance >= least) continue;
     least = balance;
     best.last_of_a = k;
@@ -229,12 +234,15 @@ Segmenter::Boundary Segmenter::boundary(const Points& points, const Piece& a, co
   return best;
 }
 
-/// A piece that its neighbours explain as well, each a part of it, is no line of its own: the few readings round a corner.
+/// A piece that its neighbours explain as well, each a part of it, is no line of its own: the few readings round a
+/// corner.
 void Segmenter::absorb(const Points& points) {
   for (std::size_t i = 1; i + 1 < pieces_.size();) {
     Piece &a = pieces_[i - 1], &piece = pieces_[i], &b = pieces_[i + 1];
-    const bool small = piece.size() <= std::min(a.size(), b.size()) && std::min(a.size(), b.size()) >= params_.min_support;
-    const bool linked = connected(points[a.last], points[piece.first]) && connected(points[piece.last], points[b.first]);
+    const bool small =
+        piece.size() <= std::min(a.size(), b.size()) && std::min(a.size(), b.size()) >= params_.min_support;
+    const bool linked =
+        connected(points[a.last], points[piece.first]) && connected(points[piece.last], points[b.first]);
     const Boundary shared =
         small && linked ? boundary(points, a, b, piece.first, piece.last) : Boundary{a.last, kNever};
     const bool explained = shared.chi2 - piece.fit.chi2 <= params_.merge_chi2;  // false for nan
@@ -302,96 +310,6 @@ void Segmenter::keep_lines(const Points& points, std::vector<RangeSegment>& segm
     segment.spacing_a = spacing_at(points[segment.first], line, increment_, params_.min_sine);
     segment.spacing_b = spacing_at(points[segment.last], line, increment_, params_.min_sine);
     segments.push_back(segment);
-  }
-}
-
-/// Nothing came back beside an end whose wall, had it gone on, would have been in easy reach.
-bool Segmenter::open_beside(std::span<const float> ranges_m, const ScanPoint& end, const LineEstimate& line,
-                            int step) const {
-  if (std::abs(line.normal().dot(end.ray)) < params_.open_sine) return false;
-  if (range_max_ > 0.0 && end.range_m > params_.open_reach * range_max_) return false;
-  const int count = static_cast<int>(ranges_m.size());
-  for (int k = 1; k <= params_.open_beams; ++k) {
-    int beam = end.beam + (clockwise_ ? -k : k) * step;
-    if (turn_ > 0 && (beam < 0 || beam >= count)) beam = (beam % turn_ + turn_) % turn_;
-    if (beam < 0 || beam >= count || !std::isinf(ranges_m[static_cast<std::size_t>(beam)])) return false;
-  }
-  return true;
-}
-
-/// What is beside an end that meets no neighbour. `step`: +1 beyond end b, -1 beyond end a.
-Segmenter::Beside Segmenter::end_beside(std::span<const float> ranges_m, const Points& points,
-                                        const RangeSegment& segment, int end, int step) const {
-  if (open_beside(ranges_m, points[end], segment.fit.line, step)) return {SegmentEnd::kOpen, 0.0};
-  const int n = static_cast<int>(points.size());
-  const auto at = [&](int k) { return turn_ > 0 ? (k % n + n) % n : k; };
-  const auto link = [&](int a, int b) { return step > 0 ? connected(points[a], points[b]) : connected(points[b], points[a]); };
-  int next = at(end + step);
-  const int after = at(end + 2 * step);
-  if (next < 0 || next >= n || next == end) return {};
-  if (after >= 0 && after < n && after != end && !link(next, after)) next = after;  // a stray reading
-  const int beams = step > 0 ? beams_between(points[end], points[next]) : beams_between(points[next], points[end]);
-  if (beams > allowed_beams_ + 1) return {};
-  // Where the beam would meet the continued line.
-  const LineEstimate& line = segment.fit.line;
-  const ScanPoint &last = points[end], &other = points[next];
-  const double sine = line.normal().dot(other.ray);
-  const double sine_last = line.normal().dot(last.ray);
-  const double farthest = 2.0 * last.range_m;
-  const double growth = sine * sine_last > 0.0 ? sine_last / sine : kNever;
-  const double expected = std::min(farthest, predicted_range(last, line) * growth);
-  const double noise = std::sqrt(last.sigma_m * last.sigma_m + other.sigma_m * other.sigma_m);
-  const double jump = (other.range_m - expected) / std::max(1e-6, noise);
-  if (jump > params_.break_sigmas) return {SegmentEnd::kFree, jump};
-  return {jump < -params_.break_sigmas ? SegmentEnd::kOccluded : SegmentEnd::kUnseen, jump};
-}
-
-void Segmenter::judge_ends(std::span<const float> ranges_m, const Points& points, std::vector<RangeSegment>& segments) const {
-  const std::size_t n = segments.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    RangeSegment &s = segments[i], &t = segments[(i + 1) % n];
-    const ScanPoint &end = points[s.last], &begin = points[t.first];
-    const Eigen::Vector2d gap = t.extent.a - s.extent.b;
-    s.gap_to_next_m = gap.norm();
-    s.gap_to_next_sigmas =
-        s.gap_to_next_m / std::sqrt(end_variance(end, s.fit.line, s.spacing_b) + end_variance(begin, t.fit.line, t.spacing_a));
-    const bool neighbours = n > 1 && (i + 1 < n || turn_ > 0);
-    const bool near = beams_between(end, begin) <= allowed_beams_ + params_.bridged_outliers;
-    if (!neighbours) s.gap_to_next_sigmas = s.gap_to_next_m = kNever;
-    if (neighbours && near && s.gap_to_next_sigmas <= params_.joined_sigmas) {
-      s.end_b = t.end_a = SegmentEnd::kJoined;
-      continue;
-    }
-    const Beside beyond = end_beside(ranges_m, points, s, s.last, +1);
-    const Beside before = end_beside(ranges_m, points, t, t.first, -1);
-    s.end_b = beyond.end;
-    s.jump_b_sigmas = beyond.jump_sigmas;
-    t.end_a = before.end;
-    t.jump_a_sigmas = before.jump_sigmas;
-  }
-}
-
-/// Ends at junctions are where the lines meet, free ends half a beam beyond the last reading.
-void Segmenter::place_ends(std::vector<RangeSegment>& segments) const {
-  const std::size_t n = segments.size();
-  for (RangeSegment& s : segments) {
-    const Eigen::Vector2d along = s.extent.direction();
-    const auto free = [](SegmentEnd end) { return end == SegmentEnd::kFree || end == SegmentEnd::kOpen; };
-    if (free(s.end_a)) s.extent.a -= 0.5 * std::min(s.spacing_a, params_.merge_gap_m) * along;
-    if (free(s.end_b)) s.extent.b += 0.5 * std::min(s.spacing_b, params_.merge_gap_m) * along;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    RangeSegment &s = segments[i], &t = segments[(i + 1) % n];
-    if (s.end_b != SegmentEnd::kJoined) continue;
-    const Eigen::Vector2d middle = 0.5 * (s.extent.b + t.extent.a);
-    const auto corner = intersect(s.fit.line, t.fit.line, params_.corner_sine);
-    const double reach = s.gap_to_next_m + s.spacing_b + t.spacing_a;
-    const bool meets = corner && (corner->position - middle).squaredNorm() <= reach * reach;
-    const Eigen::Vector2d end_s = meets ? corner->position : foot(s.fit.line, middle);
-    const Eigen::Vector2d end_t = meets ? corner->position : foot(t.fit.line, middle);
-    // Never so far that a segment turns round.
-    if ((end_s - s.extent.a).dot(s.extent.b - s.extent.a) > 0.0) s.extent.b = end_s;
-    if ((t.extent.b - end_t).dot(t.extent.b - t.extent.a) > 0.0) t.extent.a = end_t;
   }
 }
 

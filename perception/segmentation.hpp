@@ -15,17 +15,18 @@ struct SegmentationParams {
   // Breaks: neighbouring readings further apart than a wall can explain that is seen at `grazing_rad` or steeper
   // (Borges and Aldon 2004).
   double grazing_rad = 0.1745;
-  double break_sigmas = 3.0;   ///< added to that, in expected standard deviations of the range
-  int bridged_outliers = 2;    ///< lone readings in a row that do not break a wall
-  int missing_beams = 2;       ///< beams without a reading in a row that do not break a wall,
-  double missing_rad = 0.05;   ///< or as many as this angle holds
+  double break_sigmas = 3.0;  ///< added to that, in expected standard deviations of the range
+  int bridged_outliers = 2;   ///< lone readings in a row that do not break a wall
+  int missing_beams = 2;      ///< beams without a reading in a row that do not break a wall,
+  double missing_rad = 0.05;  ///< or as many as this angle holds
   // Duda-Hart: a run is split at the point that is farthest from the chord through its ends.
-  double split_sigmas = 3.0;   ///< in expected standard deviations of the point across the chord
-  double split_m = 0.0;        ///< > 0: in metres instead, of the single farthest point (Clerentin et al.)
+  double split_sigmas = 3.0;  ///< of the point and its two neighbours across the chord: of the median of the three, in
+                              ///< its expected standard deviations
+  double split_m = 0.0;  ///< > 0: in metres instead, of the single farthest point (Clerentin et al.)
   // Collinear neighbours are one.
-  double merge_chi2 = 16.0;    ///< growth by joining two; the place was chosen to part them, so this is 99 % of the largest
-                               ///< of many, not of one with 2 degrees of freedom; 0: nothing is merged
-  double merge_gap_m = 0.5;    ///< at most, where beams are missing between them
+  double merge_chi2 = 16.0;  ///< growth by joining two; the place was chosen to part them, so this is 99 % of the
+                             ///< largest of many, not of one with 2 degrees of freedom; 0: nothing is merged
+  double merge_gap_m = 0.5;  ///< at most, where beams are missing between them
   // What is kept.
   int min_support = 3;
   double min_sine = 0.09;      ///< of the mean angle between beams and line: flatter is a mixture of near and far
@@ -56,10 +57,12 @@ struct RangeSegment {
 /// Keeps its scratch memory.
 class Segmenter {
  public:
-  Segmenter(const sensors::RangeFinder& range_finder, const SegmentationParams& params, const LineFitParams& fit_params);
+  Segmenter(const sensors::RangeFinder& range_finder, const SegmentationParams& params,
+            const LineFitParams& fit_params);
 
   /// \param ranges_m  as measured, by beam: tells empty beams (inf) from missing ones (nan)
-  /// \param points  in beam order, of one scan; those beyond any sensor's reach are left out; left in counter-clockwise order, those of a full turn rotated so that no segment spans
+  /// \param points  in beam order, of one scan; those beyond any sensor's reach are left out; left in counter-clockwise
+  /// order, those of a full turn rotated so that no segment spans
   ///                the ends of the vector.
   /// \param segments  cleared first; counter-clockwise.
   void segment(std::span<const float> ranges_m, std::vector<sensors::ScanPoint>& points,
@@ -106,6 +109,7 @@ class Segmenter {
     double chi2 = 0.0;
   };
   [[nodiscard]] Boundary boundary(const Points& points, const Piece& a, const Piece& b, int first, int last) const;
+  [[nodiscard]] double chi2_of(const sensors::ScanPoint& point, const geometry::LineEstimate& line) const;
   [[nodiscard]] double merge_cost(const Points& points, const Piece& a, const Piece& b) const;
   struct Beside {
     SegmentEnd end = SegmentEnd::kUnseen;
@@ -120,9 +124,9 @@ class Segmenter {
   SegmentationParams params_;
   double increment_ = 0.0;  ///< positive
   bool clockwise_ = false;
-  int turn_ = 0;            ///< beams of a full turn; 0 where the scan does not close
+  int turn_ = 0;  ///< beams of a full turn; 0 where the scan does not close
   double range_max_ = 0.0;
-  int allowed_beams_ = 1;   ///< from one reading to the next of the same wall
+  int allowed_beams_ = 1;  ///< from one reading to the next of the same wall
   std::vector<Piece> pieces_;
 };
 

@@ -28,8 +28,11 @@ class CooperationTest : public ::testing::Test {
   }
 
   static RadialLine line_to(const Eigen::Vector2d& point, const Eigen::Vector2d& origin = {0.0, 0.0}) {
-    return {.azimuth = std::atan2(point.y() - origin.y(), point.x() - origin.x()), .sigma = 0.002, .contrast = 40.0,
-            .polarity = 1, .visible_share = 0.8};
+    return {.azimuth = std::atan2(point.y() - origin.y(), point.x() - origin.x()),
+            .sigma = 0.002,
+            .contrast = 40.0,
+            .polarity = 1,
+            .visible_share = 0.8};
   }
 
   Cooperation run(const std::vector<RadialLine>& lines, const Eigen::Vector2d& origin = {0.0, 0.0},

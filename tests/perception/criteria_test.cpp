@@ -24,8 +24,13 @@ void expect_mass(const BinaryMass& mass, double yes, double no, const char* what
 }
 
 TEST(Criteria, AlignmentInExpectedStandardDeviations) {
-  for (const auto& [sigmas, yes, no] : {std::array{0.8, 0.8, 0.0}, {1.0, 0.8, 0.0}, {1.75, 0.4, 0.0}, {2.5, 0.0, 0.125},
-                                        {3.0, 0.0, 0.25}, {4.0, 0.0, 0.5}, {9.0, 0.0, 0.5}})
+  for (const auto& [sigmas, yes, no] : {std::array{0.8, 0.8, 0.0},
+                                        {1.0, 0.8, 0.0},
+                                        {1.75, 0.4, 0.0},
+                                        {2.5, 0.0, 0.125},
+                                        {3.0, 0.0, 0.25},
+                                        {4.0, 0.0, 0.5},
+                                        {9.0, 0.0, 0.5}})
     expect_mass(segment_criteria({.mean_residual_sigmas = sigmas})[0], yes, no, "alignment");
 }
 
@@ -70,10 +75,14 @@ TEST(Criteria, PaperShapesAreAbsolute) {
 
 RC_GTEST_PROP(Criteria, AreMassesWhateverIsMeasured, ()) {
   const auto number = [] { return *rc::gen::inRange(0, 1000) * 0.05; };
-  const SegmentMeasures measures{.mean_residual_m = number() * 0.01, .mean_residual_sigmas = number(),
-                                 .support = *rc::gen::inRange(0, 100), .density_per_m = number(),
-                                 .relative_density = number() * 0.1, .endpoint_case = *rc::gen::inRange(0, 6),
-                                 .mean_gray_deviation = number(), .mean_gray_sigmas = number()};
+  const SegmentMeasures measures{.mean_residual_m = number() * 0.01,
+                                 .mean_residual_sigmas = number(),
+                                 .support = *rc::gen::inRange(0, 100),
+                                 .density_per_m = number(),
+                                 .relative_density = number() * 0.1,
+                                 .endpoint_case = *rc::gen::inRange(0, 6),
+                                 .mean_gray_deviation = number(),
+                                 .mean_gray_sigmas = number()};
   for (const CriteriaParams& params : {CriteriaParams{}, CriteriaParams::paper()})
     for (const BinaryMass& mass : segment_criteria(measures, params)) {
       RC_ASSERT(mass.yes >= 0.0 && mass.no >= 0.0 && mass.unknown >= 0.0);

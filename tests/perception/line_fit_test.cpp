@@ -32,7 +32,8 @@ std::vector<ScanPoint> wall_readings(double distance, double from, double to, in
     double range = distance / std::sin(true_angle);
     if (generator) range += noise.range.sigma(truth) * normal(*generator);
     const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
-    points.push_back({.position = range * ray, .ray = ray, .range_m = range, .sigma_m = noise.range.sigma(range), .beam = i});
+    points.push_back(
+        {.position = range * ray, .ray = ray, .range_m = range, .sigma_m = noise.range.sigma(range), .beam = i});
   }
   return points;
 }

@@ -115,11 +115,11 @@ TEST(Observer, CameraAndRangeFinderWorkTogether) {
   const Scene& scene = observer.observe(acquisition);
   EXPECT_TRUE(scene.camera_seen);
   ASSERT_GE(scene.radial_lines.size(), 7u);
-  EXPECT_GE(scene.segments.size(), 4u + scene.radial_lines.size() - 1) << "each line cuts a wall, unless it is at a corner";
+  EXPECT_GE(scene.segments.size(), 4u + scene.radial_lines.size() - 1)
+      << "each line cuts a wall, unless it is at a corner";
   for (const FusedSegment& segment : scene.segments) EXPECT_NE(segment.criteria[3], evidence::BinaryMass::vacuous());
-  const auto marks = std::count_if(scene.primitives.begin(), scene.primitives.end(), [](const Primitive& p) {
-    return !p.bearing_only && p.radial_line >= 0;
-  });
+  const auto marks = std::count_if(scene.primitives.begin(), scene.primitives.end(),
+                                   [](const Primitive& p) { return !p.bearing_only && p.radial_line >= 0; });
   EXPECT_EQ(marks, static_cast<std::ptrdiff_t>(scene.radial_lines.size()));
   EXPECT_GT(scene.mean_conflict, 0.0);
 }

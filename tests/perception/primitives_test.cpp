@@ -95,7 +95,8 @@ struct Made {
           {.azimuth = azimuth, .sigma = 0.002, .contrast = 40.0, .polarity = 1, .visible_share = 0.8});
     scene.camera_seen = !azimuths.empty();
     Cooperation cooperation;
-    cooperate(scene.radial_lines, scene.camera_origin, scene.points, finder.angle_increment_rad, {}, segments, cooperation);
+    cooperate(scene.radial_lines, scene.camera_origin, scene.points, finder.angle_increment_rad, {}, segments,
+              cooperation);
     FusedWholes wholes;
     fuse_segments(segments, cooperation, finder.angle_increment_rad, {finder.noise, {}}, {}, scene, wholes);
     name_primitives({segments, cooperation, wholes, finder.angle_increment_rad}, params, scene);
@@ -146,7 +147,8 @@ TEST(Primitives, ARecessHasCornersAndEdges) {
     EXPECT_NE(made.near(kCorner, side * 0.8, 1.8, 0.03), nullptr) << side;
   }
   const auto edges = made.of(kEdge);
-  EXPECT_EQ(std::count_if(edges.begin(), edges.end(), [](const Primitive& p) { return std::abs(p.position.x()) < 2.5; }), 2);
+  EXPECT_EQ(
+      std::count_if(edges.begin(), edges.end(), [](const Primitive& p) { return std::abs(p.position.x()) < 2.5; }), 2);
   EXPECT_EQ(made.of(kCorner).size(), 2u);
 }
 

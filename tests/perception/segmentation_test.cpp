@@ -125,8 +125,8 @@ TEST(Segmentation, ReliefIsSeenWhereTheNoiseAllows) {
 // A corridor wall with a recess: what ends freely, what is hidden.
 TEST(Segmentation, TellsFreeEndsFromHiddenOnes) {
   RangeWorld world;
-  world.add(-3.0, 1.0, 0.5, 1.0);   // ends freely at x = 0.5, seen from the left
-  world.add(-3.0, 2.5, 4.0, 2.5);   // behind it, hidden up to where the view passes the end
+  world.add(-3.0, 1.0, 0.5, 1.0);  // ends freely at x = 0.5, seen from the left
+  world.add(-3.0, 2.5, 4.0, 2.5);  // behind it, hidden up to where the view passes the end
   const auto finder = full_turn(720);
   const auto result = segment_scan(scan_of(world, finder, {}, 2), finder);
   ASSERT_EQ(result.segments.size(), 2u);
