@@ -21,6 +21,10 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double median_of_three(double a, double b, double c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
 
+/// What speaks for a piece as a line of its own. Some points that are mostly outliers of their own line have none: they
+/// must not pass into a neighbour because nothing is lost.
+double chi2_of_own_line(const LineFit& fit, int size) { return std::min(fit.chi2, 10.0 + 2.0 * size); }
+
 Eigen::Vector2d foot(const LineEstimate& line, const Eigen::Vector2d& point) {
   const Eigen::Vector2d along = line.direction();
   return line.centroid + along.dot(point - line.centroid) * along;
@@ -140,13 +144,14 @@ void Segmenter::split(const Points& points, int first, int last) {
   split(points, at + 1, last);
 }
 
-/// Squared residual in expected standard deviations, the line's own error included; at most that of an outlier.
-double Segmenter::chi2_of(const ScanPoint& point, const LineEstimate& line) const {
+/// How a reading fits a line whose own error counts.
+Segmenter::Misfit Segmenter::misfit(const ScanPoint& point, const LineEstimate& line) const {
   const double most = noise_.params.no_weight_from * noise_.params.no_weight_from;
   const Eigen::Vector2d normal = line.normal();
   const double residual = normal.dot(point.position - line.centroid);
-  const double variance = noise_.variance_across(point.ray, predicted_range(point, line), normal);
-  return std::min(most, residual * residual / (variance + variance_at(line, point.position)));
+  const double own = noise_.variance_across(point.ray, predicted_range(point, line), normal);
+  const double variance = own + variance_at(line, point.position);
+  return {std::min(most, residual * residual / variance), std::log(variance / own)};
 }
 
 /// How much chi-square would grow if two pieces were one line: the Mahalanobis distance of their lines, compared at the
@@ -162,8 +167,8 @@ double Segmenter::merge_cost(const Points& points, const Piece& a, const Piece& 
     return kNever;
   if (std::min(a.size(), b.size()) < kRoughAngle) {
     const Piece &few = a.size() < b.size() ? a : b, &many = a.size() < b.size() ? b : a;
-    double growth = -few.fit.chi2;
-    for (int k = few.first; k <= few.last; ++k) growth += chi2_of(points[k], many.fit.line);
+    double growth = -chi2_of_own_line(few.fit, few.size());
+    for (int k = few.first; k <= few.last; ++k) growth += misfit(points[k], many.fit.line).chi2;
     return growth;
   }
   const LineEstimate &one = a.fit.line, &two = b.fit.line;
@@ -202,8 +207,8 @@ void Segmenter::merge(const Points& points) {
     const Piece& other = *(best + best->merge_with);
     const LineFit joint = fit_line(span(points, best->first, other.last), noise_);
     const double growth = judge_line(span(points, best->first, best->last), joint.line, noise_).chi2 +
-                          judge_line(span(points, other.first, other.last), joint.line, noise_).chi2 - best->fit.chi2 -
-                          other.fit.chi2;
+                          judge_line(span(points, other.first, other.last), joint.line, noise_).chi2 -
+                          chi2_of_own_line(best->fit, best->size()) - chi2_of_own_line(other.fit, other.size());
     if (growth > params_.merge_chi2) {
       best->merge_cost = kNever;
       best->merge_with = 0;
@@ -217,20 +222,23 @@ void Segmenter::merge(const Points& points) {
   }
 }
 
-/// Each reading of first..last goes to the line that explains it; the lines' own errors count, for they are prolonged.
+/// Each reading of first..last goes to the line that explains it. The lines are prolonged, so their own errors count,
+/// and with the logarithm, or the vaguer line would explain more.
 Segmenter::Boundary Segmenter::boundary(const Points& points, const Piece& a, const Piece& b, int first,
                                         int last) const {
   Boundary best{.last_of_a = first - 1, .chi2 = 0.0};
-  double balance = 0.0, least = 0.0;
+  double balance = 0.0, least = 0.0, chi2 = 0.0, chi2_at_best = 0.0;
   for (int k = first; k <= last; ++k) {
-    const double to_b = chi2_of(points[k], b.fit.line);
-    best.chi2 += to_b;
-    balance += chi2_of(points[k], a.fit.line) - to_b;
+    const Misfit to_a = misfit(points[k], a.fit.line), to_b = misfit(points[k], b.fit.line);
+    best.chi2 += to_b.chi2;
+    chi2 += to_a.chi2 - to_b.chi2;
+    balance += to_a.chi2 + to_a.log_vagueness - to_b.chi2 - to_b.log_vagueness;
     if (balance >= least) continue;
     least = balance;
+    chi2_at_best = chi2;
     best.last_of_a = k;
   }
-  best.chi2 += least;
+  best.chi2 += chi2_at_best;
   return best;
 }
 
@@ -245,7 +253,8 @@ void Segmenter::absorb(const Points& points) {
         connected(points[a.last], points[piece.first]) && connected(points[piece.last], points[b.first]);
     const Boundary shared =
         small && linked ? boundary(points, a, b, piece.first, piece.last) : Boundary{a.last, kNever};
-    const bool explained = shared.chi2 - piece.fit.chi2 <= params_.merge_chi2;  // false for nan
+    const bool explained =
+        shared.chi2 - chi2_of_own_line(piece.fit, piece.size()) <= params_.merge_chi2;  // false for nan
     if (!(small && linked && explained)) {
       ++i;
       continue;
@@ -263,7 +272,8 @@ void Segmenter::move_boundaries(const Points& points) {
   for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
     Piece &a = pieces_[i], &b = pieces_[i + 1];
     if (std::min(a.size(), b.size()) < params_.min_support || !connected(points[a.last], points[b.first])) continue;
-    const int last = boundary(points, a, b, a.first + 2, b.last - 2).last_of_a;
+    const int last =
+        boundary(points, a, b, a.first + std::max(2, a.size() / 2), b.last - std::max(2, b.size() / 2)).last_of_a;
     if (last == a.last) continue;
     a.last = last;
     b.first = last + 1;

@@ -22,9 +22,9 @@ struct SegmentationParams {
   // Duda-Hart: a run is split at the point that is farthest from the chord through its ends.
   double split_sigmas = 3.0;  ///< of the point and its two neighbours across the chord: of the median of the three, in
                               ///< its expected standard deviations
-  double split_m = 0.0;  ///< > 0: in metres instead, of the single farthest point (Clerentin et al.)
+  double split_m = 0.0;       ///< > 0: in metres instead, of the single farthest point (Clerentin et al.)
   // Collinear neighbours are one.
-  double merge_chi2 = 16.0;  ///< growth by joining two; the place was chosen to part them, so this is 99 % of the
+  double merge_chi2 = 20.0;  ///< growth by joining two; the place was chosen to part them, so this is 99 % of the
                              ///< largest of many, not of one with 2 degrees of freedom; 0: nothing is merged
   double merge_gap_m = 0.5;  ///< at most, where beams are missing between them
   // What is kept.
@@ -109,7 +109,11 @@ class Segmenter {
     double chi2 = 0.0;
   };
   [[nodiscard]] Boundary boundary(const Points& points, const Piece& a, const Piece& b, int first, int last) const;
-  [[nodiscard]] double chi2_of(const sensors::ScanPoint& point, const geometry::LineEstimate& line) const;
+  struct Misfit {
+    double chi2 = 0.0;           ///< squared residual in expected standard deviations; at most that of an outlier
+    double log_vagueness = 0.0;  ///< of the variance with the line's error to that without
+  };
+  [[nodiscard]] Misfit misfit(const sensors::ScanPoint& point, const geometry::LineEstimate& line) const;
   [[nodiscard]] double merge_cost(const Points& points, const Piece& a, const Piece& b) const;
   struct Beside {
     SegmentEnd end = SegmentEnd::kUnseen;

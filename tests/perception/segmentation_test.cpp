@@ -122,6 +122,37 @@ TEST(Segmentation, ReliefIsSeenWhereTheNoiseAllows) {
   EXPECT_EQ(far.segments.size(), 1u);
 }
 
+// A small box before a wall: neither swallowed by the wall nor dragging it along.
+TEST(Segmentation, ABoxBeforeAWallIsAThingOfItsOwn) {
+  RangeWorld world;
+  world.add(-3.0, 2.0, 3.0, 2.0);
+  world.add(0.1, 1.85, 0.4, 1.85);
+  const auto finder = full_turn(360, {0.004, 0.0015});
+  for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+    const auto result = segment_scan(scan_of(world, finder, {}, seed), finder);
+    const auto count_at = [&](double y) {
+      return std::count_if(result.segments.begin(), result.segments.end(), [y](const RangeSegment& segment) {
+        return std::abs(segment.fit.line.centroid.y() - y) < 0.02;
+      });
+    };
+    EXPECT_EQ(count_at(1.85), 1) << seed;
+    EXPECT_GE(count_at(2.0), 2) << seed;
+    for (const RangeSegment& segment : result.segments) EXPECT_LT(segment.extent.length(), 3.3) << seed;
+  }
+}
+
+// The far corner of a room, seen by a scanner whose noise there is wider than the spacing of its points.
+TEST(Segmentation, AFarCornerInTheNoiseIsStillTwoWalls) {
+  RangeWorld world;
+  world.add(-1.0, 4.0, 1.5, 4.0);
+  world.add(1.5, 4.0, 1.5, 1.5);
+  const auto finder = full_turn(256, {0.01, 0.01}, 5.0);
+  int two = 0;
+  for (std::uint32_t seed = 1; seed <= 40; ++seed)
+    two += segment_scan(scan_of(world, finder, {}, seed), finder).segments.size() == 2;
+  EXPECT_GE(two, 36);
+}
+
 // A corridor wall with a recess: what ends freely, what is hidden.
 TEST(Segmentation, TellsFreeEndsFromHiddenOnes) {
   RangeWorld world;
