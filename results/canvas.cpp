@@ -45,9 +45,9 @@ Color mixed(Color a, Color b, double share) {
 
 Color color_of(perception::PrimitiveType type) {
   switch (type) {
-    case perception::PrimitiveType::kCorner: return colors::kRed;
+    case perception::PrimitiveType::kCorner: return colors::kPurple;
     case perception::PrimitiveType::kEdge: return colors::kBlue;
-    case perception::PrimitiveType::kWall: return colors::kGreen;
+    case perception::PrimitiveType::kWall: return colors::kOrange;
     case perception::PrimitiveType::kOther: return colors::kYellow;
   }
   return colors::kInk;
@@ -56,7 +56,7 @@ Color color_of(perception::PrimitiveType type) {
 Color color_of(const evidence::BinaryMass& mass) {
   constexpr Color kUnknown{186, 188, 192};
   const double committed = std::max(mass.yes + mass.no, 1e-12);
-  const Color side = mixed(colors::kBlue, colors::kRed, mass.no / committed);
+  const Color side = mixed(colors::kGreen, colors::kRed, mass.no / committed);
   return mixed(side, kUnknown, mass.unknown);
 }
 

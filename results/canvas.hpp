@@ -28,7 +28,7 @@ inline constexpr Color kPurple{160, 72, 140}, kSky{86, 180, 233}, kYellow{236, 1
 
 [[nodiscard]] Color mixed(Color a, Color b, double share_of_b);
 [[nodiscard]] Color color_of(perception::PrimitiveType type);
-/// YES blue, NO red, ignorance grey, in the proportion of the masses.
+/// YES green, NO red, ignorance grey, in the proportion of the masses.
 [[nodiscard]] Color color_of(const evidence::BinaryMass& mass);
 
 enum class Anchor { kLeft, kCentre, kRight };

@@ -39,14 +39,17 @@ void GroundView::grid(Canvas& canvas, Color color) const {
 }
 
 void GroundView::scale_bar(Canvas& canvas) const {
-  const std::vector<double> xs = ticks(low().x(), high().x(), 10);
+  const std::vector<double> xs = ticks(low().x(), high().x(), 6);
   const double step = xs.size() > 1 ? xs[1] - xs[0] : 1.0;
-  const Point end{opposite_.x() - 10.0, opposite_.y() - 10.0}, start{end.x() - pixels(step), end.y()};
-  canvas.box({start.x() - 8.0, end.y() - 22.0}, {end.x() + 8.0, end.y() + 7.0}, colors::kPaper, 0.8);
+  const std::string label = step >= 1.0 ? tick_label(step, step) + " m" : tick_label(100.0 * step, 100.0 * step) + " cm";
+  const double room = std::max(pixels(step), text_width(label, 8.5));
+  const Point end{opposite_.x() - 12.0 - 0.5 * (room - pixels(step)), opposite_.y() - 10.0}, start{end.x() - pixels(step), end.y()};
+  const double middle = 0.5 * (start.x() + end.x());
+  canvas.box({middle - 0.5 * room - 6.0, end.y() - 22.0}, {middle + 0.5 * room + 6.0, end.y() + 7.0}, colors::kPaper, 0.85);
   canvas.line(start, end, colors::kInk, 1.6);
   canvas.line({start.x(), end.y() - 4.0}, {start.x(), end.y() + 4.0}, colors::kInk, 1.6);
   canvas.line({end.x(), end.y() - 4.0}, {end.x(), end.y() + 4.0}, colors::kInk, 1.6);
-  canvas.text({0.5 * (start.x() + end.x()), end.y() - 8.0}, tick_label(step, step) + " m", colors::kInk, 8.5, Anchor::kCentre);
+  canvas.text({middle, end.y() - 8.0}, label, colors::kInk, 8.5, Anchor::kCentre);
 }
 
 std::vector<Eigen::Vector2d> ellipse(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance, double sigmas) {

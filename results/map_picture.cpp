@@ -76,13 +76,26 @@ void draw_layer(Canvas& canvas, const grids::EvidentialGrid& grid, const MapView
   canvas.frame(top_left, bottom_right, colors::kFaint, 0.8);
 }
 
+/// The four layers, two by two.
+void draw_layers(Canvas& canvas, const grids::EvidentialGrid& grid, const MapView& map, Point corner, double width, double height) {
+  const std::array<std::tuple<grids::Layer, const char*, Color>, 4> layers{
+      std::tuple{grids::Layer::kEmpty, "m(empty)", colors::kGreen}, {grids::Layer::kOccupied, "m(occupied)", kOccupiedCell},
+      {grids::Layer::kContested, "contested", kContestedCell}, {grids::Layer::kUnknown, "m(unknown)", colors::kMuted}};
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const auto& [which, title, color] = layers[i];
+    const Point at = corner + Point(i % 2 == 0 ? 0.0 : width + 18.0, i < 2 ? 0.0 : height + 12.0);
+    draw_layer(canvas, grid, map, which, title, color, at, at + Point(width, height));
+  }
+}
+
 }  // namespace
 
 cv::Mat map_picture(const grids::EvidentialGrid& grid, std::span<const geometry::Pose2> way) {
   const MapView map(grid);
   const double aspect = (map.high.y() - map.low.y()) / std::max(1e-9, map.high.x() - map.low.x());
-  const double width = 720.0, height = std::clamp(width * aspect, 420.0, 900.0), side = 330.0;
-  Canvas canvas(static_cast<int>(width + side * 1.0 + 60.0), static_cast<int>(height + 70.0));
+  const double width = 720.0, height = std::clamp(width * aspect, 420.0, 900.0);
+  const double layer_height = 0.5 * height + 5.0, layer_width = std::clamp((layer_height - 22.0) / aspect, 250.0, 380.0);
+  Canvas canvas(static_cast<int>(width + 2.0 * layer_width + 75.0), static_cast<int>(height + 70.0));
   const Point corner{16.0, 34.0}, opposite{16.0 + width, 34.0 + height};
   const GroundView view(map.low, map.high, corner, opposite);
   const Point top_left = view.at({map.low.x(), map.high.y()}), bottom_right = view.at({map.high.x(), map.low.y()});
@@ -96,15 +109,7 @@ cv::Mat map_picture(const grids::EvidentialGrid& grid, std::span<const geometry:
   legend(canvas, {16.0, 34.0 + height + 22.0},
          std::vector<LegendEntry>{{kOccupiedCell, "occupied"}, {{236, 238, 241}, "empty (white)"}, {kUnknownCell, "unknown"},
                                   {kContestedCell, "contested"}, {colors::kBlue, "way of the robot"}}, 8.5);
-  const double x = 16.0 + width + 22.0, step = (height + 20.0) / 4.0;
-  const std::array<std::tuple<grids::Layer, const char*, Color>, 4> layers{
-      std::tuple{grids::Layer::kEmpty, "m(empty)", colors::kGreen}, {grids::Layer::kOccupied, "m(occupied)", kOccupiedCell},
-      {grids::Layer::kContested, "contested", kContestedCell}, {grids::Layer::kUnknown, "m(unknown)", colors::kMuted}};
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    const auto& [which, title, color] = layers[i];
-    const double y = 16.0 + step * static_cast<double>(i);
-    draw_layer(canvas, grid, map, which, title, color, {x, y}, {x + side, y + step - 10.0});
-  }
+  draw_layers(canvas, grid, map, {16.0 + width + 22.0, 12.0}, layer_width, layer_height);
   return canvas.finish();
 }
 

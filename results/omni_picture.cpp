@@ -97,19 +97,21 @@ void draw_foot(Canvas& canvas, const perception::Scene& scene, double y) {
 }  // namespace
 
 cv::Mat omni_picture(const sensors::OmniImage& image, const sensors::OmniCamera& camera, const perception::Scene& scene) {
-  constexpr double kHead = 34.0, kFoot = 30.0, kLongest = 1000.0;
-  const double scale = std::clamp(kLongest / std::max(camera.width_px, camera.height_px), 0.5, 3.0);
-  const double width = camera.width_px * scale, height = camera.height_px * scale;
-  Canvas canvas(static_cast<int>(width), static_cast<int>(height + kHead + kFoot));
-  const Placement place{camera, scale, {0.0, kHead}};
-  canvas.image(image.pixels, {0.0, kHead}, {width, kHead + height}, false);
-  canvas.clip({0.0, kHead}, {width, kHead + height});
-  const double rim = camera.rim_radius_px.value_or(camera.outer_radius_px);
-  draw_walls(canvas, place, scene, std::max(rim, camera.outer_radius_px) + 5.0);
+  constexpr double kHead = 34.0, kFoot = 30.0, kSide = 880.0;
+  // The square around the mirror; beyond it there is nothing to see.
+  const double rim = std::max(camera.rim_radius_px.value_or(0.0), camera.outer_radius_px), reach = rim + 12.0;
+  const double scale = kSide / (2.0 * reach);
+  Canvas canvas(static_cast<int>(kSide), static_cast<int>(kSide + kHead + kFoot));
+  const Point origin = Point(0.5 * kSide, kHead + 0.5 * kSide) - scale * (camera.center_px + Point(0.5, 0.5));
+  const Placement place{camera, scale, origin};
+  canvas.clip({0.0, kHead}, {kSide, kHead + kSide});
+  canvas.box({0.0, kHead}, {kSide, kHead + kSide}, {0, 0, 0});
+  canvas.image(image.pixels, origin, origin + scale * Point(camera.width_px, camera.height_px), false);
+  draw_walls(canvas, place, scene, rim + 5.0);
   draw_lines(canvas, place, scene);
   draw_range_only(canvas, place, scene);
   canvas.clip();
-  draw_foot(canvas, scene, kHead + height + 19.0);
+  draw_foot(canvas, scene, kHead + kSide + 19.0);
   return canvas.finish();
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 using perception::PrimitiveType;
 using Point = Canvas::Point;
-constexpr double kPanel = 250.0;  // width of the panel with the ellipse and the numbers
+constexpr double kPanel = 270.0;  // width of the panel with the ellipse and the numbers
 
 struct Extent {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
@@ -57,9 +57,9 @@ void draw_landmark(Canvas& canvas, const GroundView& ground, const localization:
                    tracking::LandmarkId id) {
   if (map.is_wall(id)) {
     const geometry::Segment& wall = map.wall(id).extent;
-    canvas.line(ground.at(wall.a), ground.at(wall.b), color_of(PrimitiveType::kWall), 4.2);
+    canvas.line(ground.at(wall.a), ground.at(wall.b), colors::kGreen, 4.2);
   } else {
-    canvas.circle(ground.at(map.point(id).position), 8.0, colors::kInk, 1.4);
+    canvas.circle(ground.at(map.point(id).position), 7.0, colors::kGreen, 1.6);
   }
 }
 
@@ -126,7 +126,7 @@ void draw_panel(Canvas& canvas, const Moment& moment, Point corner) {
   const auto say = [&](const char* format, auto... values) {
     char text[128];
     std::snprintf(text, sizeof text, format, values...);
-    canvas.text({corner.x(), y}, text, colors::kInk, 9.0);
+    canvas.text({corner.x(), y}, text, colors::kInk, 8.5);
     y += 19.0;
   };
   canvas.disc({corner.x() + 6.0, y - 4.5}, 6.0, color_of(l.status));
@@ -151,13 +151,13 @@ void draw_panel(Canvas& canvas, const Moment& moment, Point corner) {
 void draw_foot(Canvas& canvas, double y, bool truth) {
   std::vector<LegendEntry> entries{{colors::kBlue, "estimate"}};
   if (truth) entries.push_back({colors::kOrange, "truth"});
-  for (const LegendEntry& e : {LegendEntry{{150, 154, 162}, "plan"}, {color_of(PrimitiveType::kWall), "matched wall"},
+  for (const LegendEntry& e : {LegendEntry{{150, 154, 162}, "plan"}, {colors::kGreen, "matched"},
                                {colors::kInk, "wall as seen"}, {color_of(PrimitiveType::kCorner), "corner"},
                                {color_of(PrimitiveType::kEdge), "edge"}, {color_of(PrimitiveType::kOther), "other"}}) {
     entries.push_back(e);
   }
   const double x = legend(canvas, {14.0, y}, entries);
-  canvas.text({x, y}, "filled: matched to the plan", colors::kInk, 8.0);
+  canvas.text({x, y}, "hollow: not matched", colors::kInk, 8.0);
 }
 
 }  // namespace

@@ -32,13 +32,25 @@ double farthest(const perception::Scene& scene) {
   return reach;
 }
 
+double ring_step(double reach) { return reach > 12.0 ? 5.0 : reach > 5.0 ? 2.0 : 1.0; }
+
 void draw_rings(Canvas& canvas, const GroundView& view, double reach) {
-  const double step = reach > 12.0 ? 5.0 : reach > 5.0 ? 2.0 : 1.0;
+  const double step = ring_step(reach);
   for (double r = step; r < 1.45 * reach; r += step) {
     canvas.circle(view.at({0, 0}), view.pixels(r), {226, 229, 234}, 0.8);
+  }
+}
+
+/// On top of everything, to the lower right.
+void label_rings(Canvas& canvas, const GroundView& view, double reach) {
+  const double step = ring_step(reach);
+  for (double r = step; r < reach; r += step) {
     char text[16];
     std::snprintf(text, sizeof text, "%g m", r);
-    if (r < reach) canvas.text(view.at({0.0, -r}) + Point(4.0, -3.0), text, colors::kMuted, 7.5);
+    const Point at = view.at(r * Eigen::Vector2d(std::sqrt(0.5), -std::sqrt(0.5)));
+    const double half = 0.5 * text_width(text, 7.5);
+    canvas.box(at + Point(-half - 3.0, -8.0), at + Point(half + 3.0, 5.0), colors::kPaper, 0.8);
+    canvas.text(at + Point(0.0, 3.0), text, colors::kMuted, 7.5, Anchor::kCentre);
   }
 }
 
@@ -79,6 +91,7 @@ cv::Mat scan_picture(const perception::Scene& scene, double robot_radius_m) {
   draw_rings(canvas, view, reach);
   draw_segments(canvas, view, scene);
   for (const sensors::ScanPoint& p : scene.points) canvas.disc(view.at(heading_up(p.position)), 1.3, {70, 74, 82});
+  label_rings(canvas, view, reach);
   draw_primitives(canvas, view, scene);
   draw_robot(canvas, view, {0.0, 0.0, 0.5 * std::numbers::pi}, robot_radius_m, colors::kInk);
   canvas.clip();

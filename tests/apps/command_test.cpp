@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Runs the built command (CREDO_COMMAND) as a person does.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+struct Answer {
+  int status = -1;
+  std::string out, error;
+};
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+class Command : public testing::Test {
+ protected:
+  Command() : folder_(fs::path(testing::TempDir()) / ("command_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~Command() override { fs::remove_all(folder_); }
+
+  /// In the test's own folder.
+  Answer credo(const std::string& arguments) const {
+    const std::string line = "cd '" + folder_.string() + "' && '" CREDO_COMMAND "' " + arguments + " >.out 2>.error";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / ".out"), text_of(folder_ / ".error")};
+  }
+  void write(const fs::path& name, const std::string& text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  [[nodiscard]] std::string read(const fs::path& name) const { return text_of(folder_ / name); }
+
+  void write_fixture() const {
+    write("ref.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0.7071067811865476 0.7071067811865476\n"
+                     "3 2 1 0 0 0 0.7071067811865476 0.7071067811865476\n4 2 2 0 0 0 1 0\n");
+    write("est.tum", "0 0.1 0 0 0 0 0 1\n1 1.1 0.1 0 0 0 0.009999833334166664 0.9999500004166653\n"
+                     "2 2.0 0.1 0 0 0 0.6892086721437826 0.7245624784016834\n"
+                     "3 2.1 1.0 0 0 0 0.7071067811865476 0.7071067811865476\n"
+                     "4 2.1 2.2 0 0 0 0.9987502603949663 0.04997916927067834\n");
+  }
+  /// A room without a camera: quick to simulate.
+  void write_small_world() const {
+    write("small.yaml", "format: credo-world/1\nname: small\ndescription: one room (simulated)\n"
+                        "building:\n  rooms:\n    - outline: [[0, 0], [4, 0], [4, 3], [2.5, 3], [2.5, 2.4], [0, 2.4]]\n"
+                        "path: [[0.8, 0.8], [3.0, 0.9], [3.2, 2.0]]\ndrive: {mode: stop_and_go, step: 0.3, pause: 0.4}\n"
+                        "sensors:\n  range_finders:\n    - {preset: opensimple, pose: [0.05, 0, 0], height: 0.8}\n"
+                        "  sonars:\n    - {preset: pioneer-16, rate: 5}\n  odometry: {rate: 10}\n");
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Command, HelpStartsWithExamples) {
+  for (const char* name : {"", "demo", "simulate", "run", "map", "evaluate", "evaluate ape", "evaluate rpe", "evaluate traj",
+                           "evaluate score", "evaluate nees", "evaluate map", "info"}) {
+    const Answer answer = credo(std::string(name) + " --help");
+    EXPECT_EQ(answer.status, 0) << name;
+    EXPECT_THAT(answer.out, StartsWith("Examples:\n  credo ")) << name;
+    EXPECT_EQ(answer.error, "") << name;
+  }
+}
+
+TEST_F(Command, VersionIsSaid) { EXPECT_THAT(credo("--version").out, StartsWith("credo ")); }
+
+TEST_F(Command, WrongUsageEndsWithStatusTwo) {
+  for (const char* arguments : {"", "fly", "run", "run a --method magic", "evaluate", "evaluate ape one", "run a --resolution -1",
+                                "evaluate nees one", "info x --format xml"}) {
+    const Answer answer = credo(arguments);
+    EXPECT_EQ(answer.status, 2) << arguments;
+    EXPECT_THAT(answer.error, StartsWith("credo: error: ")) << arguments;
+    EXPECT_EQ(answer.out, "") << arguments;
+  }
+}
+
+TEST_F(Command, WrongInputEndsWithStatusOneAndSaysWhere) {
+  write("bad.tum", "0 0 0 0 0 0 0 1\n1 0 0 zero 0 0 0 1\n");
+  write("ref.tum", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");
+  struct Case { const char *arguments, *expected; };
+  for (const Case& c : {Case{"run missing", "missing"}, {"info missing", "missing"}, {"map missing", "missing"},
+                        {"simulate missing --out out", "office"}, {"evaluate ape ref.tum bad.tum", "bad.tum:2:"},
+                        {"evaluate score ref.tum missing", "missing"}, {"evaluate map ref.tum missing", "missing"}}) {
+    const Answer answer = credo(c.arguments);
+    EXPECT_EQ(answer.status, 1) << c.arguments;
+    EXPECT_THAT(answer.error, AllOf(StartsWith("credo: error: "), HasSubstr(c.expected))) << c.arguments;
+    EXPECT_EQ(answer.out, "") << c.arguments;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Command, ApePrintsEvosBlock) {
+  write_fixture();
+  const Answer answer = credo("evaluate ape ref.tum est.tum");
+  EXPECT_EQ(answer.status, 0) << answer.error;
+  EXPECT_EQ(answer.out,
+            "Found 5 of max. 5 possible matching timestamps between...\n\tref.tum\nand:\test.tum\n"
+            "..with max. time diff.: 0.01 (s) and time offset: 0.0 (s).\n\n"
+            "APE w.r.t. translation part (m)\n(not aligned)\n\n"
+            "       max\t0.223607\n      mean\t0.133006\n    median\t0.100000\n       min\t0.100000\n"
+            "      rmse\t0.141421\n       sse\t0.100000\n       std\t0.048057\n");
+}
+
+TEST_F(Command, FlagsAreEvos) {
+  write_fixture();
+  EXPECT_THAT(credo("evaluate ape ref.tum est.tum -a").out, AllOf(HasSubstr("Umeyama"), HasSubstr("rmse\t0.083684")));
+  EXPECT_THAT(credo("evaluate ape ref.tum est.tum --align_origin").out, HasSubstr("rmse\t0.118322"));
+  EXPECT_THAT(credo("evaluate ape ref.tum est.tum -r angle_deg").out, HasSubstr("rmse\t2.910265"));
+  EXPECT_THAT(credo("evaluate rpe ref.tum est.tum").out, HasSubstr("rmse\t0.134735"));
+  EXPECT_THAT(credo("evaluate rpe ref.tum est.tum -r angle_deg").out, HasSubstr("rmse\t3.822105"));
+  EXPECT_THAT(credo("evaluate rpe ref.tum est.tum -d 2 -u m --all_pairs --pairs_from_reference").out,
+              AllOf(HasSubstr("for delta = 2.0 (m) using all pairs"), HasSubstr("rmse\t0.122836")));
+}
+
+TEST_F(Command, JsonIsForMachinesAndTheGateFails) {
+  write_fixture();
+  const json ape = json::parse(credo("evaluate ape ref.tum est.tum --format json").out);
+  EXPECT_NEAR(ape["statistics"]["rmse"].get<double>(), 0.141421, 1e-6);
+  EXPECT_EQ(ape["errors"].size(), 5u);
+  EXPECT_EQ(credo("evaluate ape ref.tum est.tum --fail_above rmse=0.2").status, 0);
+  EXPECT_EQ(credo("evaluate ape ref.tum est.tum --fail_above rmse=0.1").status, 1);
+  EXPECT_THAT(credo("evaluate ape ref.tum est.tum --fail_above mode=1").error, HasSubstr("STATISTIC=VALUE"));
+  const json traj = json::parse(credo("evaluate traj est.tum --ref ref.tum --format json").out);
+  EXPECT_EQ(traj[0]["poses"], 5);
+  EXPECT_NEAR(traj[0]["ape_rmse_m"].get<double>(), 0.141421, 1e-6);
+}
+
+TEST_F(Command, TheWholeWayOfTheData) {
+  write_small_world();
+  Answer answer = credo("simulate small.yaml --out data --seed 3");
+  ASSERT_EQ(answer.status, 0) << answer.error;
+  EXPECT_THAT(credo("simulate small.yaml --out data").error, HasSubstr("data"));
+  answer = credo("run data --out first --pictures first/pictures --moments 1");
+  ASSERT_EQ(answer.status, 0) << answer.error;
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("mean position error"), HasSubstr("confidently wrong"), HasSubstr("per pair")));
+  for (const char* name : {"trajectory.tum", "localization.csv", "tracks.csv", "primitives.csv", "radial_lines.csv", "map.yaml",
+                           "map.pgm", "map_belief.tiff", "config.yaml", "pictures/errors.png", "pictures/beliefs.png",
+                           "pictures/map.png"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "first" / name)) << name;
+  }
+  const json info = json::parse(credo("info data --format json").out);
+  EXPECT_EQ(info["kind"], "dataset");
+  const json score = json::parse(credo("evaluate score data first --format json").out);
+  EXPECT_EQ(score["acquisitions"], info["acquisitions"]);
+  EXPECT_LT(score["mean_position_m"].get<double>(), 0.1);
+  const json again = json::parse(credo("run data --out second --format json").out);
+  EXPECT_NEAR(again["score"]["mean_position_m"].get<double>(), score["mean_position_m"].get<double>(), 1e-6);
+  for (const char* name : {"localization.csv", "trajectory.tum", "map.pgm", "map_belief.tiff", "config.yaml"}) {
+    EXPECT_EQ(read(fs::path("first") / name), read(fs::path("second") / name)) << name;
+  }
+  EXPECT_THAT(credo("evaluate ape data first").out, HasSubstr("(not aligned)"));
+  EXPECT_THAT(credo("evaluate nees data first data second").out, HasSubstr("over 2 runs"));
+  EXPECT_GT(json::parse(credo("evaluate map data first --format json").out)["accuracy"].get<double>(), 0.7);
+  EXPECT_EQ(json::parse(credo("map data --out true_map --format json").out)["poses"], "ground truth");
+  EXPECT_GT(json::parse(credo("evaluate map data true_map --format json").out)["accuracy"].get<double>(), 0.8);
+  EXPECT_EQ(credo("map data --out own_map --poses first/trajectory.tum").status, 0);
+}
+
+TEST_F(Command, ResultsAreReplacedOnlyByForce) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  ASSERT_EQ(credo("run data --out out").status, 0);
+  const Answer refused = credo("run data --out out");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.error, HasSubstr("--force"));
+  EXPECT_EQ(credo("run data --out out --force").status, 0);
+  write("mine/thesis.tex", "x");
+  EXPECT_EQ(credo("run data --out mine --force").status, 1);
+  EXPECT_TRUE(fs::exists(folder_ / "mine/thesis.tex"));
+}
+
+TEST_F(Command, ABadRowIsNamedAndNothingIsWritten) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  std::ofstream(folder_ / "data/odometry0/data.csv", std::ios::app) << "5,0,nan\n";
+  const Answer answer = credo("run data --out out");
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_THAT(answer.error, HasSubstr("odometry0/data.csv:"));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  EXPECT_FALSE(fs::exists(folder_ / ".out.unfinished"));
+}
+
+TEST_F(Command, WithoutAFloorPlanPosesAreEgoMotionAndThereIsAMap) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  fs::remove(folder_ / "data/floor_plan.yaml");
+  const Answer answer = credo("run data --out out --format json");
+  ASSERT_EQ(answer.status, 0) << answer.error;
+  const json report = json::parse(answer.out);
+  EXPECT_EQ(report["status"].size(), 1u);
+  EXPECT_EQ(report["status"]["initializing"], report["acquisitions"]);
+  EXPECT_GT(report["mapped"]["scans"].get<int>(), 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/map.pgm"));
+}
+
+}  // namespace

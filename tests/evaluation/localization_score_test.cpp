@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "evaluation/localization_score.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace credo::evaluation {
+namespace {
+
+using localization::Status;
+using results::LocalizationRow;
+
+constexpr sensors::Timestamp kSecond = 1'000'000'000;
+
+/// An acquisition at second `index` with the given error in x and heading.
+LocalizationRow row(int index, double error_m, double error_deg, double yes, Status status = Status::kLocalized) {
+  LocalizationRow result;
+  auto& l = result.localization;
+  l.time = index * kSecond;
+  l.estimate.pose = {index + error_m, 0.0, geometry::to_radians(error_deg)};
+  l.estimate.covariance.diagonal() << 0.01, 0.01, 0.01;
+  l.belief = {.yes = yes, .no = 0.0, .unknown = 1.0 - yes};
+  l.status = status;
+  return result;
+}
+
+std::vector<datasets::TimedPose> truth(int count) {
+  std::vector<datasets::TimedPose> result;
+  for (int i = 0; i < count; ++i) result.push_back({i * kSecond, {static_cast<double>(i), 0.0, 0.0}});
+  return result;
+}
+
+LocalizationScore score_of(const std::vector<LocalizationRow>& rows, std::span<const Interval> degraded = {}) {
+  return score(rows, truth(static_cast<int>(rows.size())), degraded);
+}
+
+TEST(LocalizationScore, MeansAreOverPositionAndHeading) {
+  const auto s = score_of({row(0, 0.03, -1.0, 0.9), row(1, -0.01, 2.0, 0.9), row(2, 0.02, 0.0, 0.9)});
+  EXPECT_NEAR(s.mean_position_m, 0.02, 1e-12);
+  EXPECT_NEAR(s.median_position_m, 0.02, 1e-12);
+  EXPECT_NEAR(s.max_position_m, 0.03, 1e-12);
+  EXPECT_NEAR(s.mean_heading_rad, geometry::to_radians(1.0), 1e-12);
+}
+
+TEST(LocalizationScore, HeadingsWrap) {
+  auto r = row(0, 0.0, 0.0, 0.9);
+  r.localization.estimate.pose.theta = std::numbers::pi - 0.01;
+  const std::vector<datasets::TimedPose> reference{{0, {0, 0, -std::numbers::pi + 0.02}}};
+  EXPECT_NEAR(score(std::vector{r}, reference).mean_heading_rad, 0.03, 1e-12);
+}
+
+TEST(LocalizationScore, ConfidentIsLocalizedAndBelievedAndJudgedByBothLimits) {
+  const auto s = score_of({row(0, 0.31, 0, 0.81), row(1, 0.0, 11, 0.81), row(2, 0.29, 9, 0.81), row(3, 0.0, 0, 0.80),
+                           row(4, 5.0, 0, 0.99, Status::kUncertain), row(5, 5.0, 0, 0.5)});
+  EXPECT_NEAR(s.confidently_wrong, 2.0 / 6, 1e-12);
+  EXPECT_NEAR(s.confidently_right, 1.0 / 6, 1e-12);
+}
+
+TEST(LocalizationScore, LostAlertAndFalseAlert) {
+  const auto rows = std::vector{row(0, 0.26, 0, 0.2, Status::kLost), row(1, 0.0, 5.1, 0.2, Status::kUncertain),
+                                row(2, 0.1, 1, 0.4, Status::kUncertain), row(3, 0.1, 1, 0.4, Status::kAmbiguous),
+                                row(4, 0.0, 0, 0.9)};
+  const auto s = score_of(rows);
+  EXPECT_NEAR(s.lost, 2.0 / 5, 1e-12);
+  EXPECT_NEAR(s.alert, 4.0 / 5, 1e-12);
+  EXPECT_NEAR(s.false_alert, 2.0 / 5, 1e-12);
+  const std::vector<Interval> degraded{{2 * kSecond, 2 * kSecond + 1}};
+  EXPECT_NEAR(score_of(rows, degraded).false_alert, 1.0 / 5, 1e-12);
+}
+
+TEST(LocalizationScore, AvailabilityNeedsAMonitor) {
+  EXPECT_FALSE(score_of({row(0, 0, 0, 0.9)}).available);
+  auto tight = row(0, 0.2, 0, 0.9), loose = row(1, 0.0, 0, 0.9), honest = row(2, 0.2, 0, 0.9);
+  tight.protection = {0.0, 0.1, 0.0, 0.05};
+  loose.protection = {0.0, 0.6, 0.0, 0.05};
+  honest.protection = {0.0, 0.3, 0.0, 0.05};
+  const auto s = score_of({tight, loose, honest});
+  EXPECT_NEAR(*s.available, 2.0 / 3, 1e-12);
+  EXPECT_NEAR(*s.misleading, 1.0 / 3, 1e-12);
+}
+
+TEST(LocalizationScore, NeesAndSigmasAreThoseOfTheCovariance) {
+  const auto s = score_of({row(0, 0.1, 0, 0.9), row(1, 0.31, 0, 0.9)});  // sigma 0.1
+  EXPECT_NEAR(s.anees, 0.5 * (1.0 + 9.61), 1e-9);
+  EXPECT_NEAR(s.inside_3_sigma, 0.5, 1e-12);
+}
+
+TEST(LocalizationScore, RefusesATruthOfAnotherTime) {
+  std::vector<datasets::TimedPose> other{{100 * kSecond, {}}};
+  EXPECT_THAT([&] { (void)score(std::vector{row(0, 0, 0, 0.9)}, other); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("belong together")));
+}
+
+TEST(TruthAt, InterpolatesShortGapsOnly) {
+  const std::vector<datasets::TimedPose> rows{{0, {0, 0, 0}}, {kSecond / 10, {1, 0, 0}}, {2 * kSecond, {9, 0, 0}}};
+  EXPECT_NEAR(truth_at(rows, kSecond / 20)->x, 0.5, 1e-12);
+  EXPECT_NEAR(truth_at(rows, kSecond / 10 + 9'000'000)->x, 1.0, 1e-12);
+  EXPECT_FALSE(truth_at(rows, kSecond));
+  EXPECT_NEAR(truth_at(rows, 2 * kSecond + 5'000'000)->x, 9.0, 1e-12);
+  EXPECT_FALSE(truth_at(rows, 3 * kSecond));
+  EXPECT_FALSE(truth_at({}, 0));
+}
+
+TEST(Auroc, IsTheShareOfOrderedPairs) {
+  EXPECT_NEAR(*auroc(std::vector{0.9, 0.8}, std::vector{0.1, 0.2}), 1.0, 1e-12);
+  EXPECT_NEAR(*auroc(std::vector{0.5}, std::vector{0.5}), 0.5, 1e-12);
+  EXPECT_NEAR(*auroc(std::vector{0.9, 0.3}, std::vector{0.5, 0.1}), 0.75, 1e-12);
+  EXPECT_FALSE(auroc(std::vector{0.9}, std::vector<double>{}));
+}
+
+TEST(CalibrationError, IsZeroWhenFrequenciesMatch) {
+  std::vector<double> p;
+  std::vector<bool> hit;
+  for (int i = 0; i < 100; ++i) {
+    p.push_back(i < 50 ? 0.2 : 0.8);
+    hit.push_back(i < 50 ? i % 5 == 0 : i % 5 != 0);
+  }
+  EXPECT_NEAR(calibration_error(p, hit), 0.0, 1e-12);
+  EXPECT_NEAR(calibration_error(std::vector{0.9, 0.9}, {false, false}), 0.9, 1e-12);
+}
+
+}  // namespace
+}  // namespace credo::evaluation

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "evaluation/match_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace credo::evaluation {
+namespace {
+
+using perception::Primitive;
+using perception::PrimitiveType;
+
+/// An L: walls along y = 0 and x = 4, and their corner.
+const localization::LandmarkMap& map() {
+  static const localization::LandmarkMap value(geometry::FloorPlan{.walls = {{{0, 0}, {4, 0}}, {{4, 0}, {4, 3}}}, .verticals = {}});
+  return value;
+}
+const geometry::Pose2 kPose{2.0, 1.0, 0.5};
+
+tracking::LandmarkId corner_id() {
+  for (std::size_t i = 0; i < map().points().size(); ++i) {
+    if ((map().points()[i].position - Eigen::Vector2d(4, 0)).norm() < 1e-9) return map().point_id(i);
+  }
+  return tracking::kNoLandmark;
+}
+
+Primitive corner_seen(double azimuth_error, double range_error, double sigma_azimuth = 0.002, double sigma_range = 0.01) {
+  const Eigen::Vector2d p = kPose.inverse() * Eigen::Vector2d(4, 0);
+  Primitive seen;
+  seen.type = PrimitiveType::kCorner;
+  seen.azimuth = std::atan2(p.y(), p.x()) + azimuth_error;
+  seen.sigma_azimuth = sigma_azimuth;
+  seen.range_m = p.norm() + range_error;
+  seen.sigma_range_m = sigma_range;
+  return seen;
+}
+
+bool wrong(const Primitive& seen, tracking::LandmarkId id, const Eigen::Vector2d& camera = Eigen::Vector2d::Zero()) {
+  return is_wrong_match(seen, camera, map(), id, kPose);
+}
+
+TEST(MatchCheck, PointsAreJudgedByAzimuthAndRange) {
+  ASSERT_NE(corner_id(), tracking::kNoLandmark);
+  EXPECT_FALSE(wrong(corner_seen(0.0, 0.0), corner_id()));
+  EXPECT_FALSE(wrong(corner_seen(0.016, 0.09), corner_id()));
+  EXPECT_TRUE(wrong(corner_seen(0.019, 0.0), corner_id()));
+  EXPECT_TRUE(wrong(corner_seen(0.0, 0.11), corner_id()));
+}
+
+TEST(MatchCheck, AnUnsureObservationIsNotWrong) {
+  EXPECT_FALSE(wrong(corner_seen(0.019, 0.0, 0.01), corner_id()));
+  EXPECT_FALSE(wrong(corner_seen(0.0, 0.3, 0.002, 0.1), corner_id()));
+}
+
+TEST(MatchCheck, ABearingStartsAtTheCamera) {
+  const Eigen::Vector2d camera{0.0, 0.3}, p = kPose.inverse() * Eigen::Vector2d(4, 0) - camera;
+  Primitive seen;
+  seen.azimuth = std::atan2(p.y(), p.x());
+  seen.sigma_azimuth = 0.001;
+  seen.bearing_only = true;
+  EXPECT_FALSE(wrong(seen, corner_id(), camera));
+  EXPECT_TRUE(wrong(seen, corner_id()));
+}
+
+TEST(MatchCheck, WallsAreJudgedByTheirLine) {
+  const auto seen = [](double across, double turn) {
+    Primitive p;
+    p.type = PrimitiveType::kWall;
+    p.line.centroid = kPose.inverse() * Eigen::Vector2d(3.0, across);
+    p.line.angle = -kPose.theta + turn + std::numbers::pi;
+    p.line.sigma_across = 0.005;
+    p.line.sigma_angle = 0.002;
+    return p;
+  };
+  for (std::size_t i = 0; i < map().walls().size(); ++i) {
+    const bool along_x = std::abs(map().walls()[i].direction.x()) > 0.9;
+    EXPECT_EQ(wrong(seen(0.0, 0.0), map().wall_id(i)), !along_x);
+    if (!along_x) continue;
+    EXPECT_FALSE(wrong(seen(0.09, 0.016), map().wall_id(i)));
+    EXPECT_TRUE(wrong(seen(0.11, 0.0), map().wall_id(i)));
+    EXPECT_TRUE(wrong(seen(0.0, 0.02), map().wall_id(i)));
+  }
+}
+
+TEST(MatchCheck, CountsSeenTracksWithALandmark) {
+  perception::Scene scene;
+  tracking::Track right, lone, missed, bad;
+  right.landmark = missed.landmark = bad.landmark = corner_id();
+  right.last_seen = corner_seen(0, 0);
+  missed.state = tracking::TrackState::kMissed;
+  bad.last_seen = corner_seen(0.2, 0);
+  const MatchCounts counts = check_matches(scene, std::vector{right, lone, missed, bad}, map(), kPose);
+  EXPECT_EQ(counts.matches, 2);
+  EXPECT_EQ(counts.wrong, 1);
+  EXPECT_EQ(counts.wrong_share(), 0.5);
+}
+
+}  // namespace
+}  // namespace credo::evaluation
