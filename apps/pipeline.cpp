@@ -44,6 +44,8 @@ Outcome run(const datasets::Dataset& dataset, const PipelineParams& params,
     busy += watch.seconds();
     insert_ranges(mapper, localizer, acquisition);
     outcome.conflict.add(scene);
+    outcome.without_image += header.rig.camera && !scene.camera_seen ? 1 : 0;
+    outcome.without_scan += !header.rig.range_finders.empty() && !scene.range_finder_seen ? 1 : 0;
     const auto truth = evaluation::truth_at(dataset.truth, fix.time);
     if (truth && fix.status != localization::Status::kInitializing) {
       outcome.matches += evaluation::check_matches(scene, localizer.tracks(), localizer.map(), *truth);

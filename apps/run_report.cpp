@@ -37,6 +37,19 @@ Means means(const results::History& history) {
   return result;
 }
 
+/// What was missing or left out, sensor by sensor; empty where nothing was.
+std::string degradation_text(const Outcome& outcome, const datasets::Dataset& dataset) {
+  std::string text;
+  if (outcome.without_image > 0) text += fmt::format("degraded: {} acquisitions without a usable image\n", outcome.without_image);
+  if (outcome.without_scan > 0) text += fmt::format("degraded: {} acquisitions without a usable scan\n", outcome.without_scan);
+  for (const datasets::SensorLog& log : dataset.log) {
+    const std::size_t readings = log.below_range_min + log.above_range_max + log.negative;
+    if (readings > 0) text += fmt::format("{}: {} readings outside of its range were taken as no measurement\n", log.sensor, readings);
+    if (log.rows_without_value > 0) text += fmt::format("{}: {} rows hold no measurement\n", log.sensor, log.rows_without_value);
+  }
+  return text;
+}
+
 std::string conflict_text(const results::ConflictStatistics& conflict) {
   if (conflict.segments() == 0) return "";
   std::string text = fmt::format("Conflict of the five criteria over {} segments: mean {:.3f} (Clerentin et al. report 0.13)\n",
@@ -105,6 +118,7 @@ std::string to_text(const Outcome& outcome, const datasets::Dataset& dataset) {
                       mean.detected, mean.matched, mean.tracked, 1e3 * outcome.seconds_per_acquisition);
   text += fmt::format("mapped: {} sonar sweeps, {} scans; {} refused as their pose was too unsure\n", outcome.mapped.sweeps,
                       outcome.mapped.scans, outcome.mapped.refused);
+  text += degradation_text(outcome, dataset);
   if (!dataset.header.floor_plan) text += "no floor plan: poses are relative to the start, status initializing\n";
   else if (!dataset.header.initial_pose) text += "no initial pose: poses are relative to the start, status initializing\n";
   text += "\n" + conflict_text(outcome.conflict);
@@ -155,6 +169,8 @@ ordered_json to_json(const Outcome& outcome, const datasets::Dataset& dataset) {
   ordered_json result{{"dataset", dataset.header.name},
                       {"acquisitions", outcome.history.size()},
                       {"status", status_counts(outcome.history)},
+                      {"without_image", outcome.without_image},
+                      {"without_scan", outcome.without_scan},
                       {"mean_detected", mean.detected},
                       {"mean_matched", mean.matched},
                       {"mean_tracked", mean.tracked},

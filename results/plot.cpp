@@ -155,6 +155,7 @@ void Plot::draw_series(Canvas& canvas, const Axes& axes, const Series& s) const 
 
 void Plot::draw_strip(Canvas& canvas, const Axes& axes) const {
   constexpr double kHeight = 7.0;
+  if (!strip_x_.empty()) canvas.box({axes.left, axes.bottom - kHeight - 2.0}, {axes.right, axes.bottom}, colors::kPaper);
   for (std::size_t i = 0; i < strip_x_.size(); ++i) {
     const double last_step = i > 0 ? strip_x_[i] - strip_x_[i - 1] : axes.x1 - axes.x0;
     const double end = i + 1 < strip_x_.size() ? strip_x_[i + 1] : strip_x_[i] + last_step;
