@@ -210,7 +210,9 @@ double calibration_error(std::span<const double> probabilities, const std::vecto
 std::string to_text(const LocalizationScore& s, const ScoreParams& p) {
   const auto cm = [](double m) { return formatted("%.2f cm", 100.0 * m); };
   const auto deg = [](double rad) { return formatted("%.3f deg", geometry::to_degrees(rad)); };
-  const auto limits = [](double m, double d) { return formatted("%g m", m) + " or " + formatted("%g deg", d); };
+  const auto limits = [](double m, double d, const char* word = " or ") {
+    return formatted("%g m", m) + word + formatted("%g deg", d);
+  };
   const std::string lost = limits(p.lost_above_m, p.lost_above_deg), wrong = limits(p.wrong_above_m, p.wrong_above_deg);
   std::string text = "Localization against ground truth: " + std::to_string(s.with_truth) + " of " +
                      std::to_string(s.acquisitions) + " acquisitions have a truth (not aligned)\n";
@@ -218,7 +220,7 @@ std::string to_text(const LocalizationScore& s, const ScoreParams& p) {
                  "median " + cm(s.median_position_m) + ", rmse " + cm(s.rmse_position_m) + ", max " + cm(s.max_position_m));
   text += row_of("mean heading error", deg(s.mean_heading_rad),
                  "median " + deg(s.median_heading_rad) + ", rmse " + deg(s.rmse_heading_rad) + ", max " + deg(s.max_heading_rad));
-  text += row_of("success", percent(s.success), "error below " + limits(p.success_below_m, p.success_below_deg));
+  text += row_of("success", percent(s.success), "error below " + limits(p.success_below_m, p.success_below_deg, " and "));
   text += row_of("confidently wrong", percent(s.confidently_wrong),
                  "localized, belief_yes > " + formatted("%g", p.confident_belief) + ", yet error > " + wrong);
   text += row_of("confidently right", percent(s.confidently_right), "the same words, and error within both");
@@ -226,7 +228,7 @@ std::string to_text(const LocalizationScore& s, const ScoreParams& p) {
   text += row_of("alert", percent(s.alert), "status other than localized");
   text += row_of("false alert", percent(s.false_alert), "an alert with error below both limits of lost, no sensor degraded");
   text += row_of("available", percent(s.available), "localized and protection levels within " +
-                 limits(p.available_level_m, p.available_level_deg) + (s.available ? "" : " (no integrity monitor)"));
+                 limits(p.available_level_m, p.available_level_deg, " and ") + (s.available ? "" : " (no integrity monitor)"));
   text += row_of("misleading", percent(s.misleading), "available, yet the error is above the protection level");
   text += row_of("NEES", formatted("%.2f", s.anees), "mean over time of one run (3 expected); within 3 sigma: " +
                  percent(s.inside_3_sigma));
