@@ -148,8 +148,10 @@ State::Matrix information(const Prior& prior, const std::vector<Linearised>& lin
   State::Matrix sum = State::Matrix::Zero();
   sum.topLeftCorner<3, 3>() = intersected(prior.pose, omega).inverse();
   sum.bottomRightCorner<6, 6>() = intersected(prior.common, omega).inverse();
-  for (const Linearised& l : linearised)
-    sum.noalias() += l.by_state.transpose() * intersected(l, omega).inverse() * l.by_state;
+  for (const Linearised& l : linearised) {
+    const State::Jacobian weighted = intersected(l, omega).inverse() * l.by_state;
+    sum.noalias() += l.by_state.transpose() * weighted;
+  }
   return sum;
 }
 
@@ -162,7 +164,7 @@ Matrix3d pose_covariance(const State::Matrix& information) {
 
 /// The share that leaves the pose the smallest covariance (by its determinant).
 double best_share(const Prior& prior, const std::vector<Linearised>& linearised) {
-  constexpr std::array kShares{0.02, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.98};
+  constexpr std::array kShares{0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98};
   double best = 0.5, smallest = std::numeric_limits<double>::infinity();
   for (const double omega : kShares) {
     const double determinant = pose_covariance(information(prior, linearised, omega)).determinant();
@@ -329,12 +331,15 @@ const PoseSolution& PoseSolver::solve(const SplitPose& prior_pose, const std::ve
   s.linearised.resize(observations.size());
   s.reweight(x);
   for (Linearised& l : s.linearised) l.weight = 1.0;  // far from the solution, residuals say nothing of outliers
+  // The share hardly moves the minimum, so it is searched once, where the weights have settled.
   double omega = 0.5;
-  for (int i = 0; i <= s.params.reweightings; ++i) {
-    omega = best_share(prior, s.linearised);
+  for (int i = 0; i < s.params.reweightings; ++i) {
     s.minimise(prior, omega, x);
     s.reweight(x);
   }
+  omega = best_share(prior, s.linearised);
+  s.minimise(prior, omega, x);
+  s.reweight(x);
   s.finish(prior, omega, x);
   return s.solution;
 }
