@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Credo Authors
+# SPDX-License-Identifier: Apache-2.0
+"""The README's C++ is a piece of an example that is compiled and run, its commands are commands, its links lead somewhere.
+
+Usage: readme_test.py SOURCE_DIR CREDO
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+
+def main():
+    root, credo = pathlib.Path(sys.argv[1]), sys.argv[2]
+    readme = (root / "README.md").read_text(encoding="utf-8")
+    faults = []
+    if len(readme.splitlines()) > 150:
+        faults.append("README.md has more than 150 lines")
+
+    squeeze = lambda text: " ".join(text.split())
+    examples = [squeeze(path.read_text(encoding="utf-8")) for path in sorted((root / "examples").glob("*.cpp"))]
+    snippets = re.findall(r"```cpp\n(.*?)```", readme, re.S)
+    for snippet in snippets:
+        if not any(squeeze(snippet) in example for example in examples):
+            faults.append("a C++ snippet of README.md is in no example:\n" + snippet)
+    if not snippets:
+        faults.append("README.md shows no C++")
+
+    known = subprocess.run([credo, "--help"], capture_output=True, text=True, check=True).stdout
+    for command in set(re.findall(r"^credo ([a-z]+)", readme, re.M)):
+        if not re.search(rf"^  {command}\b", known, re.M):
+            faults.append(f"README.md runs `credo {command}`, which is no sub-command")
+    for script in set(re.findall(r"^(scripts/[a-z-]+)", readme, re.M)):
+        if not (root / script).exists():
+            faults.append(f"README.md runs {script}, which is not there")
+    for link in re.findall(r"\]\(([^)#]+)\)", readme):
+        if "://" not in link and not (root / link).exists():
+            faults.append(f"README.md links to {link}, which is not there")
+
+    for fault in faults:
+        print(fault)
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
