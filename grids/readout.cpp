@@ -40,12 +40,15 @@ std::vector<Value> fill(const EvidentialGrid& grid, const CellBox& box, Read rea
   std::vector<Value> values(static_cast<std::size_t>(box.width) * box.height, read(FixedLogCommonality{}));
   for (const auto& [index, tile] : grid.tiles()) {
     const CellIndex corner{index.x * Tile::kSide, index.y * Tile::kSide};
-    const int x_begin = std::max(0, box.min.x - corner.x), x_end = std::min(Tile::kSide, box.min.x + box.width - corner.x);
-    const int y_begin = std::max(0, box.min.y - corner.y), y_end = std::min(Tile::kSide, box.min.y + box.height - corner.y);
+    const int x_begin = std::max(0, box.min.x - corner.x),
+              x_end = std::min(Tile::kSide, box.min.x + box.width - corner.x);
+    const int y_begin = std::max(0, box.min.y - corner.y),
+              y_end = std::min(Tile::kSide, box.min.y + box.height - corner.y);
     for (int y = y_begin; y < y_end; ++y) {
       for (int x = x_begin; x < x_end; ++x) {
         const int i = y * Tile::kSide + x;
-        const std::size_t place = static_cast<std::size_t>(corner.y + y - box.min.y) * box.width + (corner.x + x - box.min.x);
+        const std::size_t place =
+            static_cast<std::size_t>(corner.y + y - box.min.y) * box.width + (corner.x + x - box.min.x);
         values[place] = read(FixedLogCommonality{tile.empty[i], tile.occupied[i], tile.unknown[i]});
       }
     }
@@ -63,13 +66,13 @@ CellState decide(const FixedLogCommonality& cell, const DecisionParams& params) 
   const double occupied = mass.occupied + 0.5 * mass.unknown;  // pignistic
   if (occupied >= params.occupied_from) return CellState::kOccupied;
   if (occupied <= params.empty_until) return CellState::kEmpty;
-  return CellState::kContested;
+  // Between the two: either both are supported, or neither enough.
+  return mass.empty > 0.0 && mass.occupied > 0.0 ? CellState::kContested : CellState::kUnknown;
 }
 
 std::vector<float> layer(const EvidentialGrid& grid, const CellBox& box, Layer which) {
-  return fill<float>(grid, box, [which](const FixedLogCommonality& cell) {
-    return static_cast<float>(value(cell.value(), which));
-  });
+  return fill<float>(
+      grid, box, [which](const FixedLogCommonality& cell) { return static_cast<float>(value(cell.value(), which)); });
 }
 
 std::vector<CellState> decisions(const EvidentialGrid& grid, const CellBox& box, const DecisionParams& params) {

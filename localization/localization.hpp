@@ -34,6 +34,7 @@ struct Localization {
   geometry::PoseEstimate estimate;  ///< T_map_base with covariance; in the start's frame while initializing
   evidence::BinaryMass belief;      ///< in "the localization is correct" (Clerentin et al., sec. 4.5)
   double conflict = 0.0;            ///< between its criteria
+  double innovation = 0.0;          ///< squared Mahalanobis distance of the pose from its prediction
   Status status = Status::kInitializing;
   int detected = 0;                    ///< primitives in the scene
   int matched = 0;                     ///< of them, matched to the map and used for the pose

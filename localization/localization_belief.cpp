@@ -41,18 +41,24 @@ void judge(Localization& localization, bool camera_seen, bool range_finder_seen,
   };
   if (!camera_seen) because("camera dark or missing");
   if (!range_finder_seen) because("range finder missing");
-  if (localization.matched == 0)
+  if (localization.detected == 0)
+    because("nothing is seen: the pose is predicted");
+  else if (localization.matched == 0)
     because("nothing matches the plan: the pose is predicted");
   else if (localization.matched < 3)
     because("few landmarks");
   if (belief.no > belief.yes) because("most of what is seen is not in the plan");
-  if (sigma > params.max_position_sigma_m) because("position too uncertain");
-  if (std::sqrt(P(2, 2)) > params.max_heading_sigma_rad) because("heading too uncertain");
+  // Written so that a covariance that is not a number fails.
+  const bool position_known = sigma <= params.max_position_sigma_m;
+  const bool heading_known = std::sqrt(P(2, 2)) <= params.max_heading_sigma_rad;
+  if (!position_known) because("position too uncertain");
+  if (!heading_known) because("heading too uncertain");
+  if (localization.innovation > params.max_innovation) because("the pose contradicts its prediction");
 
   if (belief.no > belief.yes) {
     localization.status = Status::kLost;
-  } else if (localization.matched == 0 || belief.yes <= params.min_belief_yes || sigma > params.max_position_sigma_m ||
-             std::sqrt(P(2, 2)) > params.max_heading_sigma_rad) {
+  } else if (localization.matched == 0 || belief.yes <= params.min_belief_yes || !position_known || !heading_known ||
+             localization.innovation > params.max_innovation) {
     localization.status = Status::kUncertain;
     if (localization.reason.empty()) because("belief is weak");
   } else {

@@ -48,8 +48,10 @@ struct LocalizationEvidence {
                                                             const LocalizationBeliefParams& params = {});
 
 struct StatusParams {
-  double min_belief_yes = 0.5;            ///< localized asks for more
-  double max_position_sigma_m = 0.125;    ///< of the worst direction: two of them stay within 0.25 m
+  double min_belief_yes = 0.5;          ///< localized asks for more
+  double max_position_sigma_m = 0.125;  ///< of the worst direction: two of them stay within 0.25 m
+  /// Squared Mahalanobis distance of the pose from its prediction: chi-square with 3 degrees of freedom at 1e-4.
+  double max_innovation = 21.1;
   double max_heading_sigma_rad = 0.0436;  ///< 2.5 degrees: two of them stay within 5 degrees
 };
 

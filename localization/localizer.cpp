@@ -47,7 +47,7 @@ SplitPose moved(const SplitPose& from, const PoseEstimate& motion) {
   return {independent.pose, independent.covariance, correlated.covariance};
 }
 
-/// The share `share` of a velocity's motion, for the time `of` the time it was observed in.
+/// A share of a motion.
 Pose2 scaled(const Pose2& motion, double share) { return geometry::interpolate({}, motion, share); }
 
 }  // namespace
@@ -83,7 +83,8 @@ struct Localizer::State {
   bool absolute;  ///< poses are in the map frame, not relative to the start
   bool started = false;
   SplitPose current;
-  Fix latest, before;
+  Fix latest;
+  std::optional<Fix> before;
   sensors::MotionPath path;
   std::map<int, int> contradictions;  ///< in a row, by track id
 
@@ -103,8 +104,10 @@ struct Localizer::State {
   void match_map(const Scene& scene, const SplitPose& predicted);
   void solve(const Scene& scene, const SplitPose& predicted);
   void label_tracks(const std::vector<Match>& matches);
+  void release(LandmarkId landmark, int keeper);
   void start_tracks(const Scene& scene);
   void drop_contradicting_landmarks(const PoseSolution& solution);
+  void forget_lost_tracks();
   void update_motion_only(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
   [[nodiscard]] PlanAgreement agreement_of(const Primitive& primitive) const;
   [[nodiscard]] LocalizationEvidence weigh(const Scene& scene) const;
@@ -113,13 +116,13 @@ struct Localizer::State {
 
 /// Odometry's motion; else what the latest velocity predicts; else rest, with the uncertainty of not knowing.
 PoseEstimate Localizer::State::predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const {
-  if (motion && params.method == perception::Method::kDefault) return *motion;
+  if (motion && (params.method == perception::Method::kDefault || !absolute)) return *motion;
   const ConstantVelocityParams& cv = params.constant_velocity;
   Pose2 step;
-  const double last_interval = sensors::seconds_between(before.time, latest.time);
-  if (before.time != 0 && last_interval > 0.0) {
+  const double last_interval = before ? sensors::seconds_between(before->time, latest.time) : 0.0;
+  if (last_interval > 0.0) {
     const double share = sensors::seconds_between(latest.time, time) / last_interval;
-    step = scaled(before.estimate.pose.inverse() * latest.estimate.pose, std::clamp(share, 0.0, 5.0));
+    step = scaled(before->estimate.pose.inverse() * latest.estimate.pose, std::clamp(share, 0.0, 5.0));
   }
   const double sigma_t = cv.translation_sigma_m + cv.translation_sigma_share * std::hypot(step.x, step.y);
   const double sigma_r = cv.rotation_sigma_rad + cv.rotation_sigma_share * std::abs(step.theta);
@@ -168,7 +171,9 @@ void Localizer::State::observe_tracks(const Scene& scene, const std::vector<Matc
   for (const bool walls : {true, false})
     for (const Match& match : matches) {
       const LandmarkId landmark = tracker.tracks()[static_cast<std::size_t>(match.track)].landmark;
-      if (landmark != kNoLandmark && map.is_wall(landmark) == walls)
+      const bool seen = !walls && std::any_of(observations.begin(), observations.end(),
+                                              [landmark](const Observation& o) { return o.landmark == landmark; });
+      if (landmark != kNoLandmark && map.is_wall(landmark) == walls && !seen)
         observe_landmark(scene, match.primitive, landmark, match.track);
     }
 }
@@ -210,12 +215,21 @@ void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted)
   }
 }
 
+/// A point of the map is one thing: a track that it was given to before and that is not seen now lets go of it.
+void Localizer::State::release(LandmarkId landmark, int keeper) {
+  if (map.is_wall(landmark)) return;
+  for (std::size_t t = 0; t < tracker.tracks().size(); ++t)
+    if (tracker.tracks()[t].landmark == landmark && static_cast<int>(t) != keeper)
+      tracker.relabel(static_cast<int>(t), kNoLandmark);
+}
+
 /// A track that had no landmark, and whose primitive has now been matched to the map, gets it.
 void Localizer::State::label_tracks(const std::vector<Match>& matches) {
   for (MapMatch& found : new_matches)
     for (const Match& match : matches)
       if (match.primitive == found.primitive) {
         tracker.relabel(match.track, found.landmark);
+        release(found.landmark, match.track);
         for (Observation& o : observations)
           if (o.primitive == found.primitive) o.track = match.track;
         found.primitive = -1;
@@ -230,12 +244,13 @@ void Localizer::State::start_tracks(const Scene& scene) {
     const auto found = std::find_if(new_matches.begin(), new_matches.end(),
                                     [primitive](const MapMatch& match) { return match.primitive == primitive; });
     if (found == new_matches.end()) {
-      if (params.method == perception::Method::kDefault) tracker.start(scene, primitive, 0.0, kNoLandmark);
+      if (params.method == perception::Method::kDefault || !absolute) tracker.start(scene, primitive, 0.0, kNoLandmark);
       continue;
     }
     // Clerentin et al., sec. 5: the initial matching is given with the mass (.5, 0, .5).
     const std::optional<int> track = started ? tracker.start(scene, primitive, found->yes, found->landmark)
                                              : tracker.start_given(scene, primitive, found->landmark);
+    if (track) release(found->landmark, *track);
     for (Observation& o : observations)
       if (o.primitive == primitive) o.track = track.value_or(-1);
   }
@@ -255,6 +270,16 @@ void Localizer::State::drop_contradicting_landmarks(const PoseSolution& solution
       contradictions.erase(id);
     }
   }
+}
+
+/// What is counted in a row is forgotten with its track.
+void Localizer::State::forget_lost_tracks() {
+  const std::vector<Track>& tracks = tracker.tracks();
+  std::erase_if(contradictions, [&tracks](const auto& entry) {
+    return std::none_of(tracks.begin(), tracks.end(), [&entry](const Track& track) {
+      return track.id == entry.first && track.state == tracking::TrackState::kTracked;
+    });
+  });
 }
 
 /// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
@@ -297,8 +322,11 @@ LocalizationEvidence Localizer::State::weigh(const Scene& scene) const {
     const PlanAgreement agreement = explained[p] ? PlanAgreement::kOnPlan : agreement_of(primitive);
     if (agreement == PlanAgreement::kOnPlan) {
       if (primitive.type == PrimitiveType::kOther && !explained[p]) continue;
-      evidence.detected += believed;
-      evidence.explained += believed;
+      // A junction that the plan does not have where it has a wall is a contradiction, unless the wall is a curve.
+      const bool junction = primitive.type == PrimitiveType::kCorner || primitive.type == PrimitiveType::kEdge;
+      const double weight = believed * (explained[p] ? 1.0 : params.on_plan_weight);
+      evidence.detected += weight;
+      evidence.explained += explained[p] || !junction ? weight : 0.0;
     } else {
       evidence.detected += believed * (agreement == PlanAgreement::kBefore ? params.unmapped_weight : 1.0);
     }
@@ -313,7 +341,8 @@ PlanAgreement Localizer::State::agreement_of(const Primitive& primitive) const {
   const double sigma =
       std::sqrt(P(0, 0) + P(1, 1) + P(2, 2) * primitive.range_m * primitive.range_m +
                 primitive.sigma_range_m * primitive.sigma_range_m + map.uncertainty_m() * map.uncertainty_m());
-  const double tolerance = std::max(params.on_plan_sigmas * sigma, params.on_plan_m);
+  const double tolerance =
+      std::clamp(params.on_plan_sigmas * sigma, params.on_plan_m, std::max(params.on_plan_m, params.on_plan_at_most_m));
   if (map.distance_to_surface(seen) <= tolerance) return PlanAgreement::kOnPlan;
   return map.sees(viewpoint, seen, tolerance) ? PlanAgreement::kBefore : PlanAgreement::kBehind;
 }
@@ -372,13 +401,21 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
     s.start_tracks(scene);
     s.drop_contradicting_landmarks(solution);
     s.tracker.update(scene);
+    s.forget_lost_tracks();
     // 6. Beliefs and status.
     fix = s.report(scene);
     const LocalizationEvidence evidence = s.weigh(scene);
-    const evidence::FusedBinaryMass belief = localization_belief(evidence, s.params.belief);
+    // Nothing seen is no evidence against the pose: what was believed fades into not knowing.
+    const evidence::FusedBinaryMass belief =
+        scene.primitives.empty()
+            ? evidence::FusedBinaryMass{evidence::discount(s.latest.belief, s.params.blind_reliability), 0.0}
+            : localization_belief(evidence, s.params.belief);
     fix.belief = belief.mass;
     fix.conflict = belief.conflict;
     fix.matched = evidence.matched;
+    fix.innovation = s.solver.solution().prior_mahalanobis_squared;
+    if (fix.innovation > s.params.status.max_innovation)
+      fix.belief = evidence::discount(fix.belief, s.params.contradiction_reliability);
     judge(fix, scene.camera_seen, scene.range_finder_seen, s.params.status);
   } else {
     if (moves) s.update_motion_only(scene, matches, step);
@@ -389,7 +426,7 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
     fix.reason = s.map.empty() ? "no floor plan: the pose is relative to the start"
                                : "no initial pose: the pose is relative to the start";
   }
-  s.before = s.started ? s.latest : Fix{};
+  s.before = s.started ? std::optional(s.latest) : std::nullopt;
   s.latest = {scene.time, fix.estimate, fix.belief};
   s.started = true;
   return fix;
@@ -398,20 +435,20 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
 evidence::Believed<PoseEstimate> Localizer::pose_at(Timestamp time) const {
   const State& s = *state_;
   if (!s.started) return {{s.current.pose, s.current.covariance()}, evidence::BinaryMass::vacuous()};
-  const bool between = s.before.time != 0 && time < s.latest.time && time >= s.before.time;
-  const Fix& anchor = between ? s.before : s.latest;
+  const bool between = s.before && time < s.latest.time && time >= s.before->time;
+  const Fix& anchor = between ? *s.before : s.latest;
   PoseEstimate estimate = anchor.estimate;
   estimate.pose = anchor.estimate.pose * s.path.motion(anchor.time, time);
   if (!between) return {estimate, anchor.belief};
   // What the path from the last fix misses of this one is spread over the way.
   const double share =
-      sensors::seconds_between(s.before.time, time) / sensors::seconds_between(s.before.time, s.latest.time);
-  const Pose2 arrived = s.before.estimate.pose * s.path.motion(s.before.time, s.latest.time);
+      sensors::seconds_between(s.before->time, time) / sensors::seconds_between(s.before->time, s.latest.time);
+  const Pose2 arrived = s.before->estimate.pose * s.path.motion(s.before->time, s.latest.time);
   const Pose2 missed = arrived.inverse() * s.latest.estimate.pose;
   estimate.pose = estimate.pose * geometry::interpolate({}, missed, share);
-  estimate.covariance = (1.0 - share) * s.before.estimate.covariance + share * s.latest.estimate.covariance;
-  const bool earlier_is_weaker = s.before.belief.pignistic() < s.latest.belief.pignistic();
-  return {estimate, earlier_is_weaker ? s.before.belief : s.latest.belief};
+  estimate.covariance = (1.0 - share) * s.before->estimate.covariance + share * s.latest.estimate.covariance;
+  const bool earlier_is_weaker = s.before->belief.pignistic() < s.latest.belief.pignistic();
+  return {estimate, earlier_is_weaker ? s.before->belief : s.latest.belief};
 }
 
 const std::vector<Track>& Localizer::tracks() const { return state_->tracker.tracks(); }

@@ -35,11 +35,15 @@ struct LocalizerParams {
   LocalizationBeliefParams belief;
   StatusParams status;
   ConstantVelocityParams constant_velocity;
-  int matching_rounds = 3;         ///< map matching and pose in turn: each round knows the pose better
-  double on_plan_sigmas = 3.0;     ///< something this near to a wall of the plan, or
-  double on_plan_m = 0.05;         ///< this near, lies on it
-  double unmapped_weight = 0.25;   ///< of something in the plan's free space, against the localization
-  int contradictions_allowed = 1;  ///< a track that contradicts the pose more often in a row loses its landmark
+  int matching_rounds = 3;                 ///< map matching and pose in turn: each round knows the pose better
+  double on_plan_sigmas = 3.0;             ///< something this near to a wall of the plan, or
+  double on_plan_m = 0.05;                 ///< this near, lies on it;
+  double on_plan_at_most_m = 0.15;         ///< but nothing farther, however unsure the pose is
+  double on_plan_weight = 0.5;             ///< of something that lies on a wall of the plan without being a landmark
+  double unmapped_weight = 0.25;           ///< of something in the plan's free space, against the localization
+  double contradiction_reliability = 0.5;  ///< of the belief where the pose contradicts its prediction
+  double blind_reliability = 0.8;          ///< of the last belief where nothing at all is seen
+  int contradictions_allowed = 1;          ///< a track that contradicts the pose more often in a row loses its landmark
 
   /// The parameters with `method` handed down to every part.
   [[nodiscard]] LocalizerParams with_method(perception::Method chosen) const;

@@ -117,7 +117,7 @@ class MapMatcher {
   };
 
   void list_visible_points(const geometry::PoseEstimate& pose, std::span<const tracking::LandmarkId> taken);
-  /// m_m, its conflict as ignorance; vacuous NO where the conflict or NO forbids the match.
+  /// m_m, its conflict as ignorance; all NO where the conflict or NO forbids the match.
   [[nodiscard]] evidence::BinaryMass wall_evidence(const perception::Primitive& wall, const WallLandmark& landmark,
                                                    const geometry::PoseEstimate& pose) const;
   [[nodiscard]] evidence::BinaryMass point_evidence(const perception::Scene& scene, const perception::Primitive& point,

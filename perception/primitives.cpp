@@ -103,6 +103,7 @@ class Namer {
   }
 
   void add_radial_lines() {
+    if (params_.absolute) return;  // the paper knows landmarks with a segment only
     for (std::size_t l = 0; l < scene_.radial_lines.size(); ++l) {
       const int index = static_cast<int>(l);
       const bool used = std::any_of(scene_.primitives.begin(), scene_.primitives.end(),

@@ -119,9 +119,11 @@ std::string to_yaml(const RunConfig& config) {
   out += "dataset: " + quoted(config.dataset) + "\n";
   out += "method: " + scalar(config.localizer.method) + "\n";
   out += "map_poses: " + quoted(config.map_poses) + "\n";
+  const bool paper = config.localizer.method == perception::Method::kPaper;
+  out += "belief_yes: >-\n  Mass on \"the localization is correct\", fused by ";
+  out += paper ? "Dempster's rule" : "conflict to ignorance";
   out +=
-      "belief_yes: >-\n"
-      "  Mass on \"the localization is correct\", fused by conflict to ignorance from the number of matched primitives, the\n"
+      " from the number of matched primitives, the\n"
       "  share of the detected ones that were matched, and the existence of the matched tracks (Clerentin et al., sec. 4.5).\n"
       "  It is a degree of belief, not a calibrated probability of a bounded error: no integrity monitor has looked, and the\n"
       "  protection levels (pl_ columns of localization.csv) are nan.\n";

@@ -5,16 +5,24 @@
 
 #include <fstream>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 
 namespace credo::results {
 namespace {
 
+constexpr const char* kResultsFormat = "format: credo-results/1";
+
 namespace fs = std::filesystem;
 
-/// Credo's own folders have a config.yaml at their top, and that is what allows them to be replaced.
+/// Credo's own folders say so in the config.yaml at their top, and that is what allows them to be replaced.
 bool may_be_replaced(const fs::path& folder) {
-  return fs::is_directory(folder) && (fs::is_empty(folder) || fs::is_regular_file(folder / "config.yaml"));
+  if (!fs::is_directory(folder)) return false;
+  if (fs::is_empty(folder)) return true;
+  std::ifstream config(folder / "config.yaml");
+  for (std::string line; std::getline(config, line);)
+    if (line == kResultsFormat) return true;
+  return false;
 }
 
 void check_target(const fs::path& target, bool replace) {
@@ -24,7 +32,8 @@ void check_target(const fs::path& target, bool replace) {
   }
   if (!may_be_replaced(target)) {
     throw std::runtime_error(target.string() +
-                             ": was not written by credo (it has no config.yaml), and will not be replaced: choose another folder");
+                             ": was not written by credo (its config.yaml does not say so), and will not be replaced: "
+                             "choose another folder");
   }
 }
 

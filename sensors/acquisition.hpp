@@ -72,7 +72,8 @@ struct ScanPoint {
 };
 
 /// The finite readings of a scan as points in the base frame at `time`, each carried there along `path` from when its beam
-/// was taken; by beam. Appends nothing for nan and inf. `points` is cleared first and keeps its memory.
+/// was taken; by beam. Appends nothing for nan, inf and what is
+/// outside of range_min .. range_max. `points` is cleared first and keeps its memory.
 void carry_scan(const RangeScan& scan, const RangeFinder& range_finder, const MotionPath& path, Timestamp time,
                 std::vector<ScanPoint>& points);
 
