@@ -10,8 +10,10 @@ namespace credo::geometry {
 
 /// The angle in (-pi, pi] that is equal to `angle` modulo 2 pi. [rad]
 [[nodiscard]] inline double wrap_angle(double angle) {
-  const double wrapped = std::remainder(angle, 2.0 * std::numbers::pi);
-  return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
+  constexpr double kPi = std::numbers::pi;
+  if (angle > -kPi && angle <= kPi) return angle;  // most are, and the remainder is slow
+  const double wrapped = std::remainder(angle, 2.0 * kPi);
+  return wrapped <= -kPi ? kPi : wrapped;
 }
 
 /// a - b, wrapped to (-pi, pi]. [rad]
