@@ -236,6 +236,13 @@ void evaluate(const Observation& observation, const Pose2& pose, Vector2d& resid
   evaluate(observation, x, residual, nullptr);
 }
 
+/// Squared Mahalanobis distance of a state's pose from the prior.
+double step_squared(const SplitPose& prior, const PoseState::Vector& x) {
+  Vector3d step = x.head<3>() - vector_of(prior.pose);
+  step(2) = geometry::wrap_angle(step(2));
+  return step.dot(prior.covariance().inverse() * step);
+}
+
 struct PoseSolver::State {
   CommonErrors common;
   PoseSolverParams params;
@@ -244,8 +251,17 @@ struct PoseSolver::State {
   std::vector<Linearised> linearised;
   PoseSolution solution;
 
+  /// Where the iterations start from.
+  enum class Start {
+    kAll,    ///< the observations, all of them
+    kPrior,  ///< the prior: what contradicts it has to be borne out by more than it contradicts
+  };
+
+  [[nodiscard]] PoseState::Vector settle(const Prior& prior, Start start);
+  [[nodiscard]] bool doubtful(const Prior& prior, const PoseState::Vector& x) const;
+  [[nodiscard]] double bounded_cost(const Prior& prior, const PoseState::Vector& x) const;
   void minimise(const Prior& prior, double omega, PoseState::Vector& x);
-  void reweight(const PoseState::Vector& x);
+  void reweight(const PoseState::Vector& x, Start start);
   void finish(const Prior& prior, double omega, const PoseState::Vector& x);
 };
 
@@ -258,19 +274,57 @@ void PoseSolver::State::minimise(const Prior& prior, double omega, PoseState::Ve
   x(PoseState::kTheta) = geometry::wrap_angle(x(PoseState::kTheta));
 }
 
-/// Linearises; Cauchy loss: weight 1 / (1 + s / c^2), s the squared residual per degree of freedom in standard
-/// deviations.
-void PoseSolver::State::reweight(const PoseState::Vector& x) {
+/// Squared residual per degree of freedom in standard deviations.
+double normalised_square(const Observation& o, const ResidualCovariance& covariance, const Vector2d& residual) {
+  return residual.dot((covariance.noise + covariance.plan).inverse() * residual) / o.dimension();
+}
+
+/// Linearises; robust weights: Cauchy's 1 / (1 + s / c^2), and its square from the prior (Geman and McClure), under
+/// which an observation that is far off pulls no more.
+void PoseSolver::State::reweight(const PoseState::Vector& x, Start start) {
   const std::vector<Observation>& observations = *residuals.observations;
+  const double scale = params.robust_scale * params.robust_scale;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     Linearised& l = linearised[k];
     Vector2d residual;
     evaluate(observations[k], x, residual, &l.by_state);
     l.covariance = residual_covariance(observations[k], pose_of(x));
-    const double squared =
-        residual.dot((l.covariance.noise + l.covariance.plan).inverse() * residual) / observations[k].dimension();
-    l.weight = 1.0 / (1.0 + squared / (params.robust_scale * params.robust_scale));
+    const double cauchy = 1.0 / (1.0 + normalised_square(observations[k], l.covariance, residual) / scale);
+    l.weight = start == Start::kPrior ? cauchy * cauchy : cauchy;
   }
+}
+
+PoseState::Vector PoseSolver::State::settle(const Prior& prior, Start start) {
+  PoseState::Vector x = residuals.prior;
+  reweight(x, start);
+  if (start == Start::kAll)
+    for (Linearised& l : linearised) l.weight = 1.0;  // far from the solution, residuals say nothing of outliers
+  for (int i = 0; i < params.reweightings; ++i) {
+    minimise(prior, 0.5, x);
+    reweight(x, start);
+  }
+  return x;
+}
+
+/// Many outliers, or a step that the prior does not explain: another minimum may be better.
+bool PoseSolver::State::doubtful(const Prior& prior, const PoseState::Vector& x) const {
+  const auto pulled =
+      std::count_if(linearised.begin(), linearised.end(), [](const Linearised& l) { return l.weight < 0.5; });
+  return step_squared(prior.pose, x) > params.doubtful_step ||
+         static_cast<double>(pulled) > params.doubtful_share * static_cast<double>(linearised.size());
+}
+
+/// What the prior and the observations have against a state, an observation's share bounded (Geman and McClure).
+double PoseSolver::State::bounded_cost(const Prior& prior, const PoseState::Vector& x) const {
+  const double scale = params.robust_scale * params.robust_scale;
+  double cost = step_squared(prior.pose, x);
+  for (const Observation& o : *residuals.observations) {
+    Vector2d residual;
+    evaluate(o, x, residual, nullptr);
+    const double squared = normalised_square(o, residual_covariance(o, pose_of(x)), residual);
+    cost += o.dimension() * scale * squared / (scale + squared);
+  }
+  return cost;
 }
 
 void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState::Vector& x) {
@@ -295,9 +349,7 @@ void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState
   solution.pose = {pose_of(x), 0.5 * (independent + independent.transpose()), Matrix3d::Zero()};
   solution.pose.correlated = 0.5 * (covariance + covariance.transpose()) - solution.pose.independent;
   solution.common_errors = x.tail<6>();
-  Vector3d step = x.head<3>() - vector_of(prior.pose.pose);
-  step(2) = geometry::wrap_angle(step(2));
-  solution.prior_mahalanobis_squared = step.dot(prior.pose.covariance().inverse() * step);
+  solution.prior_mahalanobis_squared = step_squared(prior.pose, x);
 }
 
 PoseSolver::PoseSolver(const sensors::Rig& rig, const PoseSolverParams& params) : state_(std::make_unique<State>()) {
@@ -329,17 +381,20 @@ const PoseSolution& PoseSolver::solve(const SplitPose& prior_pose, const std::ve
   s.residuals.observations = &observations;
   s.residuals.whiteners.resize(observations.size());
   s.linearised.resize(observations.size());
-  s.reweight(x);
-  for (Linearised& l : s.linearised) l.weight = 1.0;  // far from the solution, residuals say nothing of outliers
-  // The share hardly moves the minimum, so it is searched once, where the weights have settled.
-  double omega = 0.5;
-  for (int i = 0; i < s.params.reweightings; ++i) {
-    s.minimise(prior, omega, x);
-    s.reweight(x);
+  auto start = State::Start::kAll;
+  x = s.settle(prior, start);
+  if (s.doubtful(prior, x)) {
+    const PoseState::Vector cautious = s.settle(prior, State::Start::kPrior);
+    if (s.bounded_cost(prior, cautious) < s.bounded_cost(prior, x)) {
+      x = cautious;
+      start = State::Start::kPrior;
+    }
+    s.reweight(x, start);
   }
-  omega = best_share(prior, s.linearised);
+  // The share hardly moves the minimum, so it is searched once, where the weights have settled.
+  const double omega = best_share(prior, s.linearised);
   s.minimise(prior, omega, x);
-  s.reweight(x);
+  s.reweight(x, start);
   s.finish(prior, omega, x);
   return s.solution;
 }

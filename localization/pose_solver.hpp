@@ -52,6 +52,9 @@ struct SplitPose {
 struct PoseSolverParams {
   double robust_scale = 2.5;          ///< Cauchy loss, in standard deviations per degree of freedom
   int reweightings = 4;               ///< of the robust loss
+  double doubtful_step = 11.3;        ///< squared Mahalanobis distance from the prior (chi-square, 3, 1 %), or
+  double doubtful_share = 0.2;        ///< of the observations pulled to less than half their weight: a solution from
+                                      ///< the prior is tried too
   double outlier_probability = 1e-4;  ///< a residual less likely than this is no match
 };
 

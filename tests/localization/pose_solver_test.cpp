@@ -102,6 +102,20 @@ TEST(PoseSolver, OneWrongMatchNeitherPullsThePoseNorPassesAsAMatch) {
   EXPECT_EQ(std::count(solution.outlier.begin(), solution.outlier.end(), true), 1);
 }
 
+/// A bearing that alone fixes the place along a corridor, and is wrong by half a metre: without the prior's word
+/// against it nothing else would contradict.
+TEST(PoseSolver, AStepThatOnlyAWrongMatchAsksForIsNotTaken) {
+  const Pose2 truth{2.0, 1.5, 0.4};
+  std::vector<Observation> seen = seen_from(truth);
+  Observation wrong = seen[4];
+  wrong.map_point += Vector2d(1.0, 0.0);
+  seen = {seen[0], seen[0], wrong};
+  PoseSolver solver{sensors::Rig{}};
+  const PoseSolution& solution = solver.solve(prior_at(truth, 0.2, 0.02), seen);
+  EXPECT_LT(std::hypot(solution.pose.pose.x - truth.x, solution.pose.pose.y - truth.y), 0.02);
+  EXPECT_TRUE(solution.outlier[2]);
+}
+
 TEST(PoseSolver, WithoutObservationsThePriorIsTheAnswer) {
   PoseSolver solver{sensors::Rig{}};
   const SplitPose prior = prior_at({1, 2, 0.3}, 0.1, 0.05);
