@@ -185,6 +185,29 @@ LandmarkMap::LandmarkMap(const geometry::FloorPlan& plan, const LandmarkMapParam
   }
   for (const Eigen::Vector2d& vertical : plan.verticals)
     points_.push_back({.position = vertical, .vertical = true, .arms = {}});
+  if (params.cut_walls_at_points) cut_walls_at_points(tolerance);
+}
+
+void LandmarkMap::cut_walls_at_points(double tolerance) {
+  std::vector<WallLandmark> pieces;
+  std::vector<double> cuts;
+  for (const WallLandmark& wall : walls_) {
+    cuts = {0.0, wall.length_m};
+    for (const PointLandmark& point : points_) {
+      const double along = (point.position - wall.extent.a).dot(wall.direction);
+      const bool on_it = geometry::distance(point.position, wall.extent) <= tolerance;
+      if (on_it && along > 0.0 && along < wall.length_m) cuts.push_back(along);
+    }
+    std::sort(cuts.begin(), cuts.end());
+    for (std::size_t i = 1; i < cuts.size(); ++i) {
+      if (cuts[i] - cuts[i - 1] < params_.min_wall_length_m) continue;
+      WallLandmark piece = wall;
+      piece.extent = {wall.extent.a + cuts[i - 1] * wall.direction, wall.extent.a + cuts[i] * wall.direction};
+      piece.length_m = cuts[i] - cuts[i - 1];
+      pieces.push_back(piece);
+    }
+  }
+  walls_ = std::move(pieces);
 }
 
 std::optional<perception::PrimitiveType> LandmarkMap::type_from(const PointLandmark& point,

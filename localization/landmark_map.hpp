@@ -18,6 +18,8 @@ struct LandmarkMapParams {
   double max_collinear_turn_rad = 0.09;  ///< joined walls that turn by less, and stay on the line, are one wall
   double min_corner_angle_rad = 0.7854;  ///< a junction's angle for a corner or an edge: 45 ..
   double max_corner_angle_rad = 2.3562;  ///< .. 135 degrees
+  bool cut_walls_at_points = false;      ///< a wall ends at each point that lies on it, as the paper's segments end at
+                                         ///< radial lines
 };
 
 /// A wall of the plan: collinear joined walls are one.
@@ -75,6 +77,8 @@ class LandmarkMap {
   [[nodiscard]] double cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_range_m) const;
 
  private:
+  void cut_walls_at_points(double tolerance);
+
   LandmarkMapParams params_;
   double uncertainty_m_ = 0.0;
   std::vector<geometry::Segment> surfaces_;  ///< the plan's walls as they are: what hides

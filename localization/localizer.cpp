@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -41,10 +42,24 @@ struct Fix {
   evidence::BinaryMass belief;
 };
 
+/// From one fix to the next.
+struct Step {
+  Pose2 motion;
+  double seconds = 0.0;  ///< > 0
+};
+constexpr std::size_t kStepsRemembered = 3;
+
 SplitPose moved(const SplitPose& from, const PoseEstimate& motion) {
   const PoseEstimate independent = geometry::compose({from.pose, from.independent}, motion);
   const PoseEstimate correlated = geometry::compose({from.pose, from.correlated}, {motion.pose, Matrix3d::Zero()});
   return {independent.pose, independent.covariance, correlated.covariance};
+}
+
+/// The initial matching is given by hand (Clerentin et al., sec. 5): here, by the default's criteria from the initial
+/// pose.
+MapMatchingParams initial_matching(MapMatchingParams params) {
+  params.method = perception::Method::kDefault;
+  return params;
 }
 
 /// A share of a motion.
@@ -55,6 +70,7 @@ Pose2 scaled(const Pose2& motion, double share) { return geometry::interpolate({
 LocalizerParams LocalizerParams::with_method(perception::Method chosen) const {
   LocalizerParams params = *this;
   params.method = params.tracker.method = params.matching.method = params.belief.method = chosen;
+  params.map.cut_walls_at_points = chosen == perception::Method::kPaper;
   return params;
 }
 
@@ -63,7 +79,8 @@ struct Localizer::State {
         const LocalizerParams& p)
       : params(p.with_method(p.method)),
         map(plan, params.map),
-        matcher(map, params.matching),
+        later_matcher(map, params.matching),
+        first_matcher(map, initial_matching(params.matching)),
         solver(rig, params.solver),
         tracker(params.tracker),
         absolute(initial.has_value() && !map.empty()) {
@@ -77,7 +94,8 @@ struct Localizer::State {
 
   LocalizerParams params;
   LandmarkMap map;
-  MapMatcher matcher;
+  MapMatcher later_matcher;
+  MapMatcher first_matcher;
   PoseSolver solver;
   tracking::Tracker tracker;
   bool absolute;  ///< poses are in the map frame, not relative to the start
@@ -85,6 +103,7 @@ struct Localizer::State {
   SplitPose current;
   Fix latest;
   std::optional<Fix> before;
+  std::vector<Step> steps;  ///< the latest ones
   sensors::MotionPath path;
   std::map<int, int> contradictions;  ///< in a row, by track id
 
@@ -95,9 +114,12 @@ struct Localizer::State {
   std::vector<LandmarkId> taken;
   std::vector<MapMatch> new_matches;
 
+  [[nodiscard]] Pose2 usual_step(double seconds) const;
   [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
   [[nodiscard]] PoseEstimate estimate() const { return {current.pose, current.covariance()}; }
   void expect_landmarks(const SplitPose& predicted);
+  void expect_young_tracks(const Pose2& step);
+  [[nodiscard]] Pose2 likeliest_first_step(const Scene& scene);
   void observe_tracks(const Scene& scene, const std::vector<Match>& matches);
   void observe_landmark(const Scene& scene, int primitive, LandmarkId landmark, int track);
   void list_unmatched(const Scene& scene);
@@ -114,25 +136,37 @@ struct Localizer::State {
   [[nodiscard]] Localization report(const Scene& scene) const;
 };
 
+/// The component-wise median of the latest steps, each as long as `seconds`: one wrong pose makes two wrong steps of
+/// it, and neither is followed.
+Pose2 Localizer::State::usual_step(double seconds) const {
+  std::array<std::array<double, kStepsRemembered>, 3> parts{};
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Pose2 step = scaled(steps[i].motion, std::clamp(seconds / steps[i].seconds, 0.0, 5.0));
+    parts[0][i] = step.x, parts[1][i] = step.y, parts[2][i] = step.theta;
+  }
+  const auto median = [n = steps.size()](std::array<double, kStepsRemembered>& values) {
+    if (n < kStepsRemembered) return values[n - 1];
+    std::nth_element(values.begin(), values.begin() + kStepsRemembered / 2, values.end());
+    return values[kStepsRemembered / 2];
+  };
+  return {median(parts[0]), median(parts[1]), median(parts[2])};
+}
+
 /// Odometry's motion; else what the latest velocity predicts; else rest, with the uncertainty of not knowing.
 PoseEstimate Localizer::State::predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const {
   if (motion && (params.method == perception::Method::kDefault || !absolute)) return *motion;
   const ConstantVelocityParams& cv = params.constant_velocity;
-  Pose2 step;
-  const double last_interval = before ? sensors::seconds_between(before->time, latest.time) : 0.0;
-  if (last_interval > 0.0) {
-    const double share = sensors::seconds_between(latest.time, time) / last_interval;
-    step = scaled(before->estimate.pose.inverse() * latest.estimate.pose, std::clamp(share, 0.0, 5.0));
-  }
-  const double sigma_t = cv.translation_sigma_m + cv.translation_sigma_share * std::hypot(step.x, step.y);
-  const double sigma_r = cv.rotation_sigma_rad + cv.rotation_sigma_share * std::abs(step.theta);
+  const Pose2 step = steps.empty() ? Pose2{} : usual_step(sensors::seconds_between(latest.time, time));
+  const double distance = steps.empty() ? cv.first_step_m : std::hypot(step.x, step.y);
+  const double turn = steps.empty() ? cv.first_turn_rad : std::abs(step.theta);
+  const double sigma_t = cv.translation_sigma_m + cv.translation_sigma_share * distance;
+  const double sigma_r = cv.rotation_sigma_rad + cv.rotation_sigma_share * turn;
   const Eigen::Vector3d variance(sigma_t * sigma_t, sigma_t * sigma_t, sigma_r * sigma_r);
   return {step, variance.asDiagonal()};
 }
 
 /// Map and tracks agree: a track with a landmark is looked for where the map has it.
 void Localizer::State::expect_landmarks(const SplitPose& predicted) {
-  if (params.method == perception::Method::kPaper) return;
   const std::vector<Track>& tracks = tracker.tracks();
   const Matrix3d P = predicted.covariance();
   const Pose2 T_base_map = predicted.pose.inverse();
@@ -146,6 +180,34 @@ void Localizer::State::expect_landmarks(const SplitPose& predicted) {
     tracker.expect_point(static_cast<int>(t), p,
                          by_pose * P * by_pose.transpose() + plan * Eigen::Matrix2d::Identity());
   }
+}
+
+/// A line through azimuths needs two of them: a track that was seen once is looked for where the robot's latest
+/// velocity brings it. The paper does not say what it does with these.
+void Localizer::State::expect_young_tracks(const Pose2& step) {
+  const std::vector<Track>& tracks = tracker.tracks();
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    if (tracks[t].hits > 1 || tracks[t].last_seen_time != latest.time) continue;
+    const Vector2d position = step.inverse() * tracks[t].last_seen.position;
+    tracker.expect(static_cast<int>(t), std::atan2(position.y(), position.x()), tracks[t].sigma_azimuth);
+  }
+}
+
+/// Before there is a velocity: the way straight on along which most azimuths go on.
+Pose2 Localizer::State::likeliest_first_step(const Scene& scene) {
+  constexpr int kTries = 13;
+  Pose2 best;
+  double most = -1.0;
+  for (int i = 0; i < kTries; ++i) {
+    const Pose2 step{params.constant_velocity.first_step_m * i / (kTries - 1), 0.0, 0.0};
+    expect_young_tracks(step);
+    double sum = 0.0;
+    for (const Match& match : tracker.associate(scene)) sum += match.match_yes;
+    if (sum <= most) continue;
+    most = sum;
+    best = step;
+  }
+  return best;
 }
 
 void Localizer::State::observe_landmark(const Scene& scene, int primitive, LandmarkId landmark, int track) {
@@ -206,6 +268,7 @@ void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted)
     return !found.empty();
   };
   new_matches.clear();
+  MapMatcher& matcher = started ? later_matcher : first_matcher;
   for (int round = 0; round < params.matching_rounds; ++round) {
     list_unmatched(scene);
     const bool walls = add(matcher.match_walls(scene, unmatched, estimate()));
@@ -377,10 +440,13 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   State& s = *state_;
   // 1. Predict the pose and where the tracks should be seen.
   const bool moves = s.started;
-  const PoseEstimate step = s.predicted_motion(motion, scene.time);
+  const bool paper = s.params.method == perception::Method::kPaper;
+  PoseEstimate step = s.predicted_motion(motion, scene.time);
+  s.tracker.predict(!paper && moves ? std::optional(step) : std::nullopt);
+  if (s.absolute && paper && moves && s.steps.empty()) step.pose = s.likeliest_first_step(scene);
   const SplitPose predicted = moves ? moved(s.current, step) : s.current;
-  s.tracker.predict(s.params.method == perception::Method::kDefault && moves ? std::optional(step) : std::nullopt);
-  if (s.absolute) s.expect_landmarks(predicted);
+  if (s.absolute && paper) s.expect_young_tracks(step.pose);
+  if (s.absolute && !paper) s.expect_landmarks(predicted);
 
   // 2. Associate the primitives with the tracks.
   const std::vector<Match>& matches = s.tracker.associate(scene);
@@ -427,6 +493,11 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
                                : "no initial pose: the pose is relative to the start";
   }
   s.before = s.started ? std::optional(s.latest) : std::nullopt;
+  if (s.before && scene.time > s.before->time) {
+    if (s.steps.size() == kStepsRemembered) s.steps.erase(s.steps.begin());
+    s.steps.push_back(
+        {s.before->estimate.pose.inverse() * fix.estimate.pose, sensors::seconds_between(s.before->time, scene.time)});
+  }
   s.latest = {scene.time, fix.estimate, fix.belief};
   s.started = true;
   return fix;

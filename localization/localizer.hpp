@@ -23,6 +23,8 @@ struct ConstantVelocityParams {
   double translation_sigma_m = 0.10;
   double rotation_sigma_share = 0.5;  ///< of the turn that the velocity predicts
   double rotation_sigma_rad = 0.10;
+  double first_step_m = 0.6;  ///< what the robot may do before anything is known of its velocity
+  double first_turn_rad = 0.2;
 };
 
 struct LocalizerParams {

@@ -17,7 +17,7 @@ namespace credo::tracking {
 struct PredictionParams {
   /// Observations that the azimuth is extrapolated from (N_mes): under the paper's method, and in the default one where there is
   /// no motion. Two follow a landmark that is passed closely better than three (docs/equations.md). 1..8
-  int observations_paper = 3;
+  int observations_paper = 2;
   int observations = 2;
   /// What is expected of a robot that reports no motion, from one acquisition to the next, 1-sigma: how far it drives (that
   /// of Clerentin et al., sec. 5), how far it turns, and by how much the turn differs from the one before.

@@ -90,6 +90,23 @@ TEST(LandmarkMap, VerticalsAreOthersFromEverywhere) {
   EXPECT_EQ(map.point(map.point_id(6)).position, Vector2d(1, 0));
 }
 
+TEST(LandmarkMap, WallsCutAtPointsEndAtDoorFramesAndAtWallsThatMeetThem) {
+  geometry::FloorPlan plan;
+  plan.walls = {{{0, 0}, {8, 0}}, {{6, 0}, {6, 3}}};
+  plan.verticals = {{2.0, 0.01}, {2.1, 0.0}, {4.0, 1.0}};  // a frame of 10 cm, and a mark that is not on the wall
+  LandmarkMapParams params;
+  EXPECT_EQ(LandmarkMap(plan, params).walls().size(), 2U);
+  params.cut_walls_at_points = true;
+  const LandmarkMap map(plan, params);
+  std::vector<double> lengths;
+  for (const WallLandmark& wall : map.walls()) lengths.push_back(wall.length_m);
+  ASSERT_EQ(lengths.size(), 4U);  // the 10 cm between the frame's edges are no landmark
+  EXPECT_NEAR(lengths[0], 2.0, 1e-9);
+  EXPECT_NEAR(lengths[1], 3.9, 1e-9);
+  EXPECT_NEAR(lengths[2], 2.0, 1e-9);
+  EXPECT_NEAR(lengths[3], 3.0, 1e-9);
+}
+
 TEST(LandmarkMap, SeesUpToTheFirstWall) {
   const LandmarkMap map(l_shaped_room());
   EXPECT_TRUE(map.sees({1, 1}, {4, 1}, 0.01));

@@ -46,8 +46,10 @@ TEST(Tracker, FollowsThroughTheWrapAtPi) {
   }
 }
 
-TEST(Tracker, PredictsByTheLineOverThreeObservationsUnderThePapersMethod) {
-  Tracker tracker(paper());
+TEST(Tracker, PredictsByTheLineThroughTheLastObservationsUnderThePapersMethod) {
+  TrackerParams params = paper();
+  params.prediction.observations_paper = 3;
+  Tracker tracker(params);
   for (const double azimuth : {10.0, 11.0, 13.0}) follow(tracker, scene({at(kEdge, azimuth)}));
   tracker.predict(std::nullopt);
   EXPECT_NEAR(tracker.tracks()[0].azimuth, (4.0 * 13.0 + 11.0 - 2.0 * 10.0) / 3.0 * kDegree, 1e-12);
@@ -90,7 +92,8 @@ TEST(Tracker, SurvivesABigTurnWithOdometryOnly) {
       follow(tracker, scene({point(kEdge, landmark)}), rest);
     }
     const auto big = motion(0.0, 0.0, 70.0);
-    follow(tracker, scene({point(kEdge, big.pose.inverse() * landmark)}), with_motion ? std::optional(big) : std::nullopt);
+    follow(tracker, scene({point(kEdge, big.pose.inverse() * landmark)}),
+           with_motion ? std::optional(big) : std::nullopt);
     return tracker.tracks()[0].hits;
   };
   Tracker by_odometry, by_extrapolation(paper());
@@ -141,7 +144,8 @@ TEST(Tracker, KeepsTracksApartWhoseAzimuthsCross) {
   std::vector<int> order;
   for (int t = 0; t < 14; ++t) {
     const Eigen::Vector2d near(3.1 - 0.3 * t, 1.0), far(7.1 - 0.3 * t, 5.0);
-    follow(tracker, scene({point(kEdge, near), point(kEdge, far)}), t == 0 ? std::nullopt : std::optional(motion(0.3, 0.0, 0.0)));
+    follow(tracker, scene({point(kEdge, near), point(kEdge, far)}),
+           t == 0 ? std::nullopt : std::optional(motion(0.3, 0.0, 0.0)));
   }
   ASSERT_EQ(tracker.tracks().size(), 2u);
   for (int i = 0; i < 2; ++i) {
@@ -220,8 +224,12 @@ TEST(Tracker, WithholdsAPrimitiveThatTwoTracksClaimAlike) {
 
 TEST(Tracker, KeepsTheMassAtTotalConflict) {
   TrackerParams params;
-  params.association.sigmas = {.max_yes = 1.0, .yes_full_until = 2.0, .yes_zero_from = 3.0,
-                               .max_no = 1.0, .no_zero_until = 3.0, .no_full_from = 6.0};
+  params.association.sigmas = {.max_yes = 1.0,
+                               .yes_full_until = 2.0,
+                               .yes_zero_from = 3.0,
+                               .max_no = 1.0,
+                               .no_zero_until = 3.0,
+                               .no_full_from = 6.0};
   Tracker tracker(params);
   for (int t = 0; t < 3; ++t) follow(tracker, scene({at(kEdge, 10.0)}), motion(0.0, 0.0, 0.0));
   const auto before = tracker.tracks()[0].existence;
@@ -283,7 +291,7 @@ TEST(Tracker, TellsLinesOfOppositePolarityApart) {
   EXPECT_EQ(matches[0].track, 0);
 }
 
-// ---------------------------------------------------------------------------------------------- bearings without a range
+// ------------------------------------------------------------------------------------------ bearings without a range
 
 TEST(Tracker, FollowsABearingWithoutARange) {
   Tracker tracker;
@@ -546,7 +554,8 @@ TEST(Tracker, GivesTheSameForTheSame) {
     for (int t = 0; t < 30; ++t) {
       std::vector<Primitive> primitives;
       for (int i = 0; i < 12; ++i) {
-        if ((t + i) % 5 != 0) primitives.push_back(at(i % 2 ? kEdge : kCorner, 31.0 * i + std::sin(t * (i + 1.0)), 1.0 + 0.4 * i));
+        if ((t + i) % 5 != 0)
+          primitives.push_back(at(i % 2 ? kEdge : kCorner, 31.0 * i + std::sin(t * (i + 1.0)), 1.0 + 0.4 * i));
       }
       follow(tracker, scene(primitives));
       for (const Track& track : tracker.tracks()) out << track << '\n';
