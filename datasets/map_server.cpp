@@ -137,8 +137,7 @@ char grey_of(std::int8_t cell) {
 }  // namespace
 
 OccupancyMap to_occupancy(const grids::EvidentialGrid& grid, const grids::DecisionParams& params) {
-  grids::CellBox box = grid.bounding_box();
-  if (box.empty()) box = {{0, 0}, 1, 1};
+  const grids::CellBox box = grids::picture_box(grid);
   const grids::Georeference& reference = grid.georeference();
   OccupancyMap map{.width = box.width,
                    .height = box.height,

@@ -52,12 +52,9 @@ CellBox widened(const CellBox& box, int margin) {
 
 CellBox checked_box(const EvidentialGrid& map, const MapAccuracyParams& params) {
   if (params.tolerance_cells < 0) throw std::invalid_argument("map accuracy: tolerance_cells must not be negative");
-  const CellBox box = map.bounding_box();
-  if (box.empty()) throw std::invalid_argument("the map holds no evidence: nothing can be compared with the truth");
-  if (std::int64_t{box.width} * box.height > std::int64_t{1} << 28)
-    throw std::invalid_argument("the map is " + std::to_string(box.width) + " x " + std::to_string(box.height) +
-                                " cells: too large to be compared with the truth");
-  return box;
+  if (map.bounding_box().empty())
+    throw std::invalid_argument("the map holds no evidence: nothing can be compared with the truth");
+  return grids::picture_box(map);
 }
 
 MapAccuracy compare(const EvidentialGrid& map, const CellBox& box, const Plane<Truth>& truth,
@@ -147,9 +144,9 @@ MapAccuracy map_accuracy(const EvidentialGrid& map, const geometry::FloorPlan& p
       if (known.contains({x, y})) real.set({x, y}, Truth::kEmpty);
   constexpr int kStepsPerCell = 8;
   for (const geometry::Segment& wall : plan.walls) {
-    const int steps = 1 + static_cast<int>(wall.length() / reference.resolution_m * kStepsPerCell);
-    for (int step = 0; step <= steps; ++step)
-      real.set(reference.cell_at(wall.a + (wall.b - wall.a) * (static_cast<double>(step) / steps)), Truth::kOccupied);
+    const auto steps = 1 + static_cast<std::int64_t>(wall.length() / reference.resolution_m * kStepsPerCell);
+    for (std::int64_t step = 0; step <= steps; ++step)
+      real.set(reference.cell_at(wall.a + (wall.b - wall.a) * (static_cast<double>(step) / static_cast<double>(steps))), Truth::kOccupied);
   }
   return compare(map, box, real, params);
 }

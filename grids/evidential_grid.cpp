@@ -71,7 +71,8 @@ CellBox evidence_box(const Tile& tile) {
 
 bool Tile::is_vacuous() const { return all_zero(empty) && all_zero(occupied) && all_zero(unknown); }
 
-EvidentialGrid::EvidentialGrid(const Georeference& georeference) : georeference_(georeference) {
+EvidentialGrid::EvidentialGrid(const Georeference& georeference, std::size_t most_tiles)
+    : georeference_(georeference), most_tiles_(most_tiles) {
   if (!(georeference.resolution_m > 0.0 && std::isfinite(georeference.resolution_m)))
     throw std::invalid_argument("the resolution of a map must be a finite number of metres above 0, not " +
                                 std::to_string(georeference.resolution_m));
@@ -95,6 +96,17 @@ void EvidentialGrid::add(CellIndex cell, const FixedLogCommonality& increment) {
   to.unknown[i] = sum.unknown;
 }
 
+Tile& EvidentialGrid::tile(TileIndex index) {
+  const auto found = tiles_.lower_bound(index);
+  if (found != tiles_.end() && found->first == index) return found->second;
+  if (tiles_.size() >= most_tiles_)
+    throw std::length_error("the map has grown to " + std::to_string(most_tiles_ * Tile::kCells) + " cells of " +
+                            std::to_string(georeference_.resolution_m) +
+                            " m, and larger it may not become: choose a coarser resolution, or look for a pose that is "
+                            "far off");
+  return tiles_.try_emplace(found, index)->second;
+}
+
 const Tile* EvidentialGrid::find_tile(TileIndex index) const {
   const auto found = tiles_.find(index);
   return found == tiles_.end() ? nullptr : &found->second;
@@ -103,7 +115,7 @@ const Tile* EvidentialGrid::find_tile(TileIndex index) const {
 void EvidentialGrid::merge(const EvidentialGrid& other) {
   require_same(georeference_, other.georeference_);
   for (const auto& [index, from] : other.tiles_) {
-    Tile& to = tiles_[index];
+    Tile& to = tile(index);
     add_channel(to.empty, from.empty);
     add_channel(to.occupied, from.occupied);
     add_channel(to.unknown, from.unknown);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 
@@ -47,9 +48,13 @@ struct Tile {
 /// much that it reaches the floor of its range (evidence::FixedLogCommonality) stays there.
 class EvidentialGrid {
  public:
+  /// 2^26 cells, 0.8 GB: a square of 400 m with cells of 5 cm.
+  static constexpr std::size_t kMostTiles = std::size_t{1} << 14;
+
   EvidentialGrid() : EvidentialGrid(Georeference{}) {}
+  /// \param most_tiles  that it may hold; a map that needs more has too fine a resolution, or a pose that is far off
   /// \throws std::invalid_argument unless the resolution is finite and above zero and the origin finite.
-  explicit EvidentialGrid(const Georeference& georeference);
+  explicit EvidentialGrid(const Georeference& georeference, std::size_t most_tiles = kMostTiles);
 
   [[nodiscard]] const Georeference& georeference() const { return georeference_; }
 
@@ -59,7 +64,8 @@ class EvidentialGrid {
   void add(CellIndex cell, const evidence::FixedLogCommonality& increment);
 
   /// The tile to write to; made when absent. The reference stays valid until the tile is pruned or the grid dies.
-  [[nodiscard]] Tile& tile(TileIndex index) { return tiles_[index]; }
+  /// \throws std::length_error if the grid may not hold another tile; so do `add` and `merge`
+  [[nodiscard]] Tile& tile(TileIndex index);
   /// The tile to read from; null when absent.
   [[nodiscard]] const Tile* find_tile(TileIndex index) const;
   /// All tiles, by row and column.
@@ -84,6 +90,7 @@ class EvidentialGrid {
 
  private:
   Georeference georeference_;
+  std::size_t most_tiles_;
   std::map<TileIndex, Tile> tiles_;
 };
 

@@ -13,7 +13,13 @@ namespace {
 using evidence::FixedLogCommonality;
 using evidence::LogCommonality;
 
-constexpr std::int64_t kLargestPicture = std::int64_t{1} << 28;  // cells
+void require_picture(const CellBox& box) {
+  if (std::int64_t{box.width} * box.height > kLargestPicture)
+    throw std::invalid_argument(
+        "the map is " + std::to_string(box.width) + " x " + std::to_string(box.height) + " cells, more than the " +
+        std::to_string(kLargestPicture) +
+        " of the largest picture: choose a coarser resolution, or look for a pose that is far off");
+}
 
 double value(const LogCommonality& cell, Layer which) {
   switch (which) {
@@ -34,9 +40,7 @@ double value(const LogCommonality& cell, Layer which) {
 template <typename Value, typename Read>
 std::vector<Value> fill(const EvidentialGrid& grid, const CellBox& box, Read read) {
   if (box.empty()) return {};
-  if (std::int64_t{box.width} * box.height > kLargestPicture)
-    throw std::invalid_argument("the map is " + std::to_string(box.width) + " x " + std::to_string(box.height) +
-                                " cells, more than a picture can hold: choose a coarser resolution or a smaller part");
+  require_picture(box);
   std::vector<Value> values(static_cast<std::size_t>(box.width) * box.height, read(FixedLogCommonality{}));
   for (const auto& [index, tile] : grid.tiles()) {
     const CellIndex corner{index.x * Tile::kSide, index.y * Tile::kSide};
@@ -57,6 +61,13 @@ std::vector<Value> fill(const EvidentialGrid& grid, const CellBox& box, Read rea
 }
 
 }  // namespace
+
+CellBox picture_box(const EvidentialGrid& grid) {
+  const CellBox box = grid.bounding_box();
+  if (box.empty()) return {{0, 0}, 1, 1};
+  require_picture(box);
+  return box;
+}
 
 CellState decide(const FixedLogCommonality& cell, const DecisionParams& params) {
   const LogCommonality value = cell.value();

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "grids/evidential_grid.hpp"
@@ -36,8 +37,15 @@ enum class Layer {
   kRawUnknown,
 };
 
+/// The most cells that a picture may have: a square of 400 m with cells of 5 cm.
+inline constexpr std::int64_t kLargestPicture = std::int64_t{1} << 26;
+
+/// The rectangle to show of a whole map: that of all evidence, or a single cell where there is none.
+/// \throws std::invalid_argument if it holds more than kLargestPicture cells
+[[nodiscard]] CellBox picture_box(const EvidentialGrid& grid);
+
 /// One layer of a rectangle of cells: `box.height` rows of `box.width` floats, lowest row first.
-/// \throws std::invalid_argument if the box holds more than 2^28 cells: the map is larger than a picture can be.
+/// \throws std::invalid_argument if the box holds more than kLargestPicture cells
 [[nodiscard]] std::vector<float> layer(const EvidentialGrid& grid, const CellBox& box, Layer which);
 
 /// The decision for every cell of a rectangle, in the order of `layer`.

@@ -11,11 +11,13 @@
 #include <string>
 #include <utility>
 
+#include "mapping/resolution_fit.hpp"
+
 namespace credo::mapping {
 namespace {
 
 constexpr double kTableBins = 400.0;  // at most, over the range
-constexpr double kMostCells = 5000.0;  // along a beam
+constexpr std::size_t kMostTableBytes = std::size_t{64} << 20;  // of the increments kept
 
 /// The first column, or row, whose centre is not below a coordinate.
 int first_centre(double coordinate) { return static_cast<int>(std::ceil(coordinate - 0.5)); }
@@ -40,12 +42,7 @@ FanPainter::FanPainter(Source source, const sensors::SonarRing& ring, const grid
   if (!(ring.beam_width_rad > 0.0 && ring.beam_width_rad < std::numbers::pi))
     throw std::invalid_argument("sonar ring: beam_width must be between 0 and pi rad, not " +
                                 std::to_string(ring.beam_width_rad));
-  const double cells = ring.range_max_m / georeference.resolution_m;
-  if (!(cells >= 4.0 && cells <= kMostCells))
-    throw std::invalid_argument("sonar ring: a resolution of " + std::to_string(georeference.resolution_m) +
-                                " m does not fit a range of " + std::to_string(ring.range_max_m) +
-                                " m: choose one between " + std::to_string(ring.range_max_m / kMostCells) + " and " +
-                                std::to_string(ring.range_max_m / 4.0) + " m");
+  require_resolution_fits(georeference.resolution_m, ring.range_max_m, "sonar ring");
   // Distances are shifted so that the reading is exact: its own step may be the coarser one.
   reading_bin_m_ = std::max(0.5 * georeference.resolution_m, ring.range_max_m / kTableBins);
   rho_bin_m_ = 0.5 * reading_bin_m_;
@@ -60,10 +57,12 @@ const FanPainter::Table& FanPainter::table(double reading_m, int level) {
   if (!table.rows.empty()) return table;
 
   const double reading = echo ? (static_cast<double>(bin) + 0.5) * reading_bin_m_ : reading_m;
-  table.reading_m = reading;
   const double reliability = reliability_of(level) * (echo ? source_.reliability : source_.no_echo_reliability);
   const double widest = std::sin(half_width_rad_);
-  table.rows.resize(static_cast<std::size_t>(source_.reach(reading) / rho_bin_m_) + 3);
+  const std::size_t rows = static_cast<std::size_t>(source_.reach(reading) / rho_bin_m_) + 3;
+  forget_tables_before(rows * sizeof(table.rows.front()));
+  table.reading_m = reading;
+  table.rows.resize(rows);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const double rho = (static_cast<double>(row) + 0.5) * rho_bin_m_;
     for (int a = 0; a < kAngleBins; ++a) {
@@ -73,6 +72,14 @@ const FanPainter::Table& FanPainter::table(double reading_m, int level) {
     }
   }
   return table;
+}
+
+void FanPainter::forget_tables_before(std::size_t bytes) {
+  if (table_bytes_ + bytes > kMostTableBytes) {
+    for (Table& table : tables_) table = {};
+    table_bytes_ = 0;
+  }
+  table_bytes_ += bytes;
 }
 
 FanPainter::Fan FanPainter::fan(const geometry::Pose2& pose, double reach_m) const {

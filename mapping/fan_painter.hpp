@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -60,6 +61,8 @@ class FanPainter {
 
   FanPainter(Source source, const sensors::SonarRing& ring, const grids::Georeference& georeference);
   [[nodiscard]] const Table& table(double reading_m, int level);
+  /// Makes room for another table: all are dropped where they would take too much memory, to be made again.
+  void forget_tables_before(std::size_t bytes);
   [[nodiscard]] Fan fan(const geometry::Pose2& T_map_transducer, double reach_m) const;
   void paint_rows(const Fan& fan, const Table& table, int begin, int end);
 
@@ -70,6 +73,7 @@ class FanPainter {
   double rho_bin_m_ = 0.0;
   std::vector<Table> tables_;  ///< by reading, then level; the last reading is "no echo"
   std::size_t readings_ = 0;
+  std::size_t table_bytes_ = 0;
   TileWindow window_;
 };
 

@@ -25,6 +25,17 @@ bool covers(const sensors::MotionPath& trajectory, sensors::Timestamp time, doub
   return before_is_near || after_is_near;
 }
 
+/// Calls insert(i) for all i below `count`, on all cores, and says after each batch how many are done.
+template <typename Insert, typename Done>
+void insert_in_batches(std::size_t count, const Insert& insert, const Done& done) {
+  constexpr std::size_t kBatch = 64;
+  for (std::size_t begin = 0; begin < count; begin += kBatch) {
+    const std::size_t end = std::min(begin + kBatch, count);
+    tbb::parallel_for(begin, end, insert);
+    done(end);
+  }
+}
+
 /// What one thread has mapped so far.
 struct Worker {
   Mapper mapper;
@@ -35,7 +46,7 @@ struct Worker {
 
 TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
                         std::span<const sensors::RangeScan> scans, std::span<const sensors::SonarSweep> sweeps,
-                        const TrajectoryMappingParams& params) {
+                        const TrajectoryMappingParams& params, const std::function<void(double share)>& progress) {
   if (T_map_base.empty()) throw std::invalid_argument("the trajectory has no pose: nothing can be mapped along it");
   // Sums of evidence do not depend on their order, so every thread maps what it gets into a grid of its own.
   tbb::enumerable_thread_specific<Worker> workers([&] { return Worker{Mapper(rig, params.mapper), 0}; });
@@ -47,8 +58,12 @@ TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Ri
     }
     worker.mapper.insert({{T_map_base.pose_at(reading.time), params.covariance}, params.belief}, reading, T_map_base);
   };
-  tbb::parallel_for(std::size_t{0}, scans.size(), [&](std::size_t i) { insert(scans[i]); });
-  tbb::parallel_for(std::size_t{0}, sweeps.size(), [&](std::size_t i) { insert(sweeps[i]); });
+  const auto report = [&](std::size_t done) {
+    if (progress) progress(static_cast<double>(done) / static_cast<double>(scans.size() + sweeps.size()));
+  };
+  insert_in_batches(scans.size(), [&](std::size_t i) { insert(scans[i]); }, report);
+  insert_in_batches(sweeps.size(), [&](std::size_t i) { insert(sweeps[i]); },
+                    [&](std::size_t done) { report(scans.size() + done); });
 
   TrajectoryMap map{Mapper(rig, params.mapper).take_grid(), {}, 0};
   for (Worker& worker : workers) {

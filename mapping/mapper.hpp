@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -86,10 +87,12 @@ struct TrajectoryMap {
 
 /// The map of a whole drive whose poses are given: `T_map_base` holds the trajectory, in the map frame, and carries every
 /// beam to its own time. Runs on all cores; the result is the same to the last bit whatever their number.
+/// \param progress  called on this thread now and then with the share done; what it throws ends the mapping
 /// \throws std::invalid_argument and std::out_of_range as `Mapper`, or if the trajectory is empty.
 [[nodiscard]] TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
                                       std::span<const sensors::RangeScan> scans,
                                       std::span<const sensors::SonarSweep> sweeps,
-                                      const TrajectoryMappingParams& params = {});
+                                      const TrajectoryMappingParams& params = {},
+                                      const std::function<void(double share)>& progress = {});
 
 }  // namespace credo::mapping

@@ -10,13 +10,14 @@
 #include <string>
 #include <utility>
 
+#include "mapping/resolution_fit.hpp"
+
 namespace credo::mapping {
 namespace {
 
 using geometry::Pose2;
 
 constexpr int kPathKnots = 16;  // poses along a scan, between which the motion is taken as even
-constexpr double kMostCells = 20000.0;  // along a beam
 constexpr double kWallHalfCells = 0.55;  // to either side of a surface: half a cell, and a bit for one on a border of cells
 
 int free_class(double reliability) { return level_of(reliability) - 1; }  // -1: none
@@ -46,11 +47,7 @@ void check(const sensors::RangeFinder& finder, const grids::Georeference& georef
   require(params.min_incidence_rad > 0.0 && params.max_half_sector_rad > 0.0,
           "min_incidence_rad and max_half_sector_rad must be above 0");
   const double reach_m = std::min(finder.range_max_m, params.max_range_m);
-  const double cells = reach_m / georeference.resolution_m;
-  require(cells >= 4.0 && cells <= kMostCells,
-          "a resolution of " + std::to_string(georeference.resolution_m) + " m does not fit a range of " +
-              std::to_string(reach_m) + " m: choose one between " + std::to_string(reach_m / kMostCells) + " and " +
-              std::to_string(reach_m / 4.0) + " m");
+  require_resolution_fits(georeference.resolution_m, reach_m, "range finder");
 }
 
 }  // namespace

@@ -124,8 +124,7 @@ std::map<std::uint16_t, std::uint32_t> read_fields(std::string_view bytes, const
 
 BeliefImage belief_image(const grids::EvidentialGrid& grid, BeliefChannels channels) {
   using grids::Layer;
-  grids::CellBox box = grid.bounding_box();
-  if (box.empty()) box = {{0, 0}, 1, 1};
+  const grids::CellBox box = grids::picture_box(grid);
   const bool raw = channels == BeliefChannels::kRaw;
   const std::array<Layer, kChannels> layers =
       raw ? std::array{Layer::kRawEmpty, Layer::kRawOccupied, Layer::kRawConflict, Layer::kRawUnknown}
@@ -155,7 +154,8 @@ void write_belief_tiff(const BeliefImage& image, const std::filesystem::path& fi
   put(bytes, static_cast<std::uint32_t>(place), 4);
   for (const std::array<float, kChannels>& pixel : image.pixels)
     for (const float value : pixel) put(bytes, std::bit_cast<std::uint32_t>(value), 4);
-  datasets::write_file_whole(file, bytes + directory_of(image, place));
+  bytes += directory_of(image, place);
+  datasets::write_file_whole(file, bytes);
 }
 
 BeliefImage read_belief_tiff(const std::filesystem::path& file) {

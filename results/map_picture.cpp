@@ -51,8 +51,7 @@ struct MapView {
   grids::CellBox box;
   Eigen::Vector2d low, high;
 
-  explicit MapView(const grids::EvidentialGrid& grid) : box(grid.bounding_box()) {
-    if (box.empty()) box = {.min = {0, 0}, .width = 1, .height = 1};
+  explicit MapView(const grids::EvidentialGrid& grid) : box(grids::picture_box(grid)) {
     low = corner_of(grid, box.min.x, box.min.y);
     high = corner_of(grid, box.min.x + box.width, box.min.y + box.height);
   }

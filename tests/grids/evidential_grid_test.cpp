@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 #include <rapidcheck/gtest.h>
+#include <stdexcept>
 #include <vector>
 
 #include "grids/readout.hpp"
@@ -179,6 +180,17 @@ TEST(CellBox, UnitesAndContains) {
   EXPECT_TRUE(a.contains({1, 2}));
   EXPECT_FALSE(a.contains({2, 2}));
   EXPECT_FALSE(a.contains({0, -1}));
+}
+
+TEST(EvidentialGrid, GrowsNoLargerThanItMay) {
+  EvidentialGrid grid({}, 2), other;
+  grid.add({0, 0}, {-1, -2, -3});
+  grid.add({64, 0}, {-1, -2, -3});
+  grid.add({1, 0}, {-1, -2, -3});
+  other.add({128, 0}, {-1, -2, -3});
+  EXPECT_THROW(grid.add({0, 64}, {-1, -2, -3}), std::length_error);
+  EXPECT_THROW(grid.merge(other), std::length_error);
+  EXPECT_EQ(grid.tiles().size(), 2u);
 }
 
 }  // namespace

@@ -79,7 +79,16 @@ TEST(Layer, RefusesAPictureThatIsTooLarge) {
   grid.add({1 << 27, 1 << 27}, evidence_of(1, 0));
   EXPECT_EQ(grid.tiles().size(), 2u);
   EXPECT_THROW(static_cast<void>(layer(grid, grid.bounding_box(), Layer::kEmpty)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(picture_box(grid)), std::invalid_argument);
   EXPECT_TRUE(layer(grid, CellBox{}, Layer::kEmpty).empty());
+}
+
+TEST(PictureBox, IsThatOfTheEvidenceOrACell) {
+  EvidentialGrid grid;
+  EXPECT_EQ(picture_box(grid), (CellBox{{0, 0}, 1, 1}));
+  grid.add({-3, 7}, evidence_of(1, 0));
+  grid.add({0, 9}, evidence_of(1, 0));
+  EXPECT_EQ(picture_box(grid), (CellBox{{-3, 7}, 4, 3}));
 }
 
 TEST(CellStateNames, AreWords) {

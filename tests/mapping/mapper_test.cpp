@@ -493,7 +493,7 @@ TEST(Mapper, RefusesReadingsThatAreNotOfTheRig) {
 }
 
 TEST(Mapper, RefusesAResolutionThatDoesNotFit) {
-  for (const double resolution : {0.0, -0.1, std::nan(""), 1e-6, 5.0}) {
+  for (const double resolution : {0.0, -0.1, std::nan(""), 1e-6, 5e-4, 5.0}) {
     MapperParams params;
     params.georeference.resolution_m = resolution;
     EXPECT_THROW(Mapper(rig_with(panoramic()), params), std::invalid_argument) << resolution;
@@ -564,6 +564,37 @@ TEST(MapAlong, IsTheSameAsInsertingOneByOne) {
   EXPECT_EQ(map.grid, one_by_one.grid());
   EXPECT_EQ(map.counts, one_by_one.counts());
   EXPECT_THROW(static_cast<void>(map_along(sensors::MotionPath{}, rig, scans, sweeps)), std::invalid_argument);
+}
+
+TEST(MapAlong, TellsItsProgressAndCanBeStopped) {
+  const sensors::Rig rig = rig_with(one_sonar());
+  const sensors::MotionPath still(std::vector<sensors::OdometryReading>{{0, {}}});
+  const std::vector<sensors::SonarSweep> sweeps(200, {0, 0, {1.0F}});
+  std::vector<double> shares;
+  static_cast<void>(map_along(still, rig, {}, sweeps, {}, [&](double share) { shares.push_back(share); }));
+  EXPECT_GT(shares.size(), 2u);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.back(), 1.0);
+  struct Stop {};
+  EXPECT_THROW(static_cast<void>(map_along(still, rig, {}, sweeps, {}, [](double) { throw Stop(); })), Stop);
+}
+
+/// More tables of increments than are kept, by range and by reliability.
+TEST(Mapper, IncrementsThatWereForgottenComeBackTheSame) {
+  sensors::SonarRing ring = one_sonar();
+  ring.range_max_m = 20.0;
+  const sensors::Rig rig = rig_with(ring);
+  Mapper all(rig);
+  grids::EvidentialGrid one_by_one{grids::Georeference{}};
+  for (int k = 0; k < 2000; ++k) {
+    const auto pose = with_sigma({0.0, 0.0, 0.0}, 0.0025 * (k % 20), 0.0);
+    const sensors::SonarSweep sweep{0, 0, {static_cast<float>(19.9 - 0.1 * (k / 20))}};
+    all.insert(pose, sweep);
+    Mapper single(rig);
+    single.insert(pose, sweep);
+    one_by_one.merge(single.grid());
+  }
+  EXPECT_EQ(all.grid(), one_by_one);
 }
 
 }  // namespace
