@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <cstdlib>
 #include <utility>
 
 #include "datasets/format_error.hpp"
@@ -14,9 +14,6 @@
 
 namespace credo::datasets {
 namespace {
-
-/// Times beyond this could overflow when they are subtracted.
-constexpr sensors::Timestamp kLatest = std::numeric_limits<sensors::Timestamp>::max() / 2;
 
 std::string header_of(const std::vector<std::string>& columns) {
   std::string header = "#";
@@ -90,7 +87,7 @@ sensors::Timestamp CsvTable::time() {
   const std::string_view text = field();
   sensors::Timestamp time = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
-  if (error != std::errc{} || end != text.data() + text.size() || time < -kLatest || time > kLatest)
+  if (error != std::errc{} || end != text.data() + text.size() || std::abs(time) > sensors::kLatestTime)
     fail(column() + ": expected a time in whole nanoseconds, found " + in_quotes(text) +
          (text.find_first_of(".eE") != std::string_view::npos ? " (seconds? multiply them by 1e9)" : ""));
   if (has_time_ && time < last_time_)

@@ -7,7 +7,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -25,7 +24,6 @@ namespace fs = std::filesystem;
 using sensors::Timestamp;
 
 constexpr Timestamp kNanoseconds = 1'000'000'000;
-constexpr Timestamp kLatest = std::numeric_limits<Timestamp>::max() / 2;
 constexpr int kPoseDecimals = 9;
 
 /// A row of a text file that holds values.
@@ -72,7 +70,7 @@ Timestamp nanoseconds(const fs::path& file, const Row& row) {
   const std::string_view text = row.fields.front();
   Timestamp time = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
-  if (error != std::errc{} || end != text.data() + text.size() || std::abs(time) > kLatest)
+  if (error != std::errc{} || end != text.data() + text.size() || std::abs(time) > sensors::kLatestTime)
     throw FormatError(file, row.line, "expected a time in whole nanoseconds, found " + in_quotes(text));
   return time;
 }
@@ -232,7 +230,7 @@ Timestamp parse_seconds(std::string_view text) {
     throw fail();
   Timestamp time = 0;
   for (const char c : whole) time = 10 * time + (c - '0');
-  if (time > kLatest / kNanoseconds - 1) throw fail();
+  if (time > sensors::kLatestTime / kNanoseconds - 1) throw fail();
   for (std::size_t i = 0; i < 9; ++i) time = 10 * time + (i < fraction.size() ? fraction[i] - '0' : 0);
   if (fraction.size() > 9 && fraction[9] >= '5') ++time;
   return negative ? -time : time;

@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -28,6 +30,17 @@ std::vector<std::size_t> by_time(const Trajectory& trajectory) {
   return order;
 }
 
+/// Stays where differences cannot overflow. Precondition: the time of a reader, and an offset of AssociationParams.
+Timestamp shifted(Timestamp time, Timestamp offset) {
+  return std::clamp(time + offset, -sensors::kLatestTime, sensors::kLatestTime);
+}
+
+void check(const AssociationParams& params) {
+  constexpr double kLargest = AssociationParams::kLargest_s;
+  if (!(std::abs(params.t_offset_s) <= kLargest && params.t_max_diff_s >= 0.0 && params.t_max_diff_s <= kLargest))
+    throw std::invalid_argument("the largest difference in time of a match must be from 0 to 4e9 s, and an offset within 4e9 s");
+}
+
 Candidate nearest(const Trajectory& trajectory, const std::vector<std::size_t>& order, Timestamp time) {
   const auto after = std::lower_bound(order.begin(), order.end(), time, [&](std::size_t i, Timestamp t) {
     return trajectory.poses[i].time < t;
@@ -46,7 +59,7 @@ std::vector<std::ptrdiff_t> match(const Trajectory& shorter, const Trajectory& l
   std::vector<std::ptrdiff_t> owner(longer.poses.size(), -1);
   std::vector<Candidate> candidates(shorter.poses.size());
   for (std::size_t i = 0; i < shorter.poses.size(); ++i) {
-    candidates[i] = nearest(longer, order, shorter.poses[i].time + offset);
+    candidates[i] = nearest(longer, order, shifted(shorter.poses[i].time, offset));
     if (candidates[i].difference > limit) continue;
     std::ptrdiff_t& current = owner[candidates[i].index];
     if (current < 0 || candidates[i].difference < candidates[static_cast<std::size_t>(current)].difference) {
@@ -73,7 +86,7 @@ AssociatedPair interpolate_reference(const Trajectory& reference, const Trajecto
                       .estimate = {.name = estimate.name},
                       .possible = static_cast<int>(estimate.poses.size())};
   for (const StampedPose& pose : estimate.poses) {
-    const Timestamp time = pose.time + offset;
+    const Timestamp time = shifted(pose.time, offset);
     const auto after = std::lower_bound(order.begin(), order.end(), time, [&](std::size_t i, Timestamp t) {
       return reference.poses[i].time < t;
     });
@@ -99,6 +112,7 @@ AssociatedPair row_by_row(const Trajectory& reference, const Trajectory& estimat
 }  // namespace
 
 AssociatedPair associate(const Trajectory& reference, const Trajectory& estimate, const AssociationParams& params) {
+  check(params);
   if (!reference.timed || !estimate.timed) return row_by_row(reference, estimate);
   const Timestamp offset = sensors::from_seconds(params.t_offset_s);
   const Timestamp limit = sensors::from_seconds(params.t_max_diff_s);

@@ -8,6 +8,7 @@
 namespace credo::evaluation {
 
 struct AssociationParams {
+  static constexpr double kLargest_s = 4e9;  ///< of the times below: over a hundred years
   double t_max_diff_s = 0.01;
   double t_offset_s = 0.0;   ///< added to the times of the estimate
   bool interpolate = false;  ///< the reference, to the times of the estimate, instead of taking its nearest row
@@ -23,7 +24,7 @@ struct AssociatedPair {
 /// Each pose of the shorter trajectory takes the pose of the longer one that is nearest in time, where that is within
 /// `t_max_diff_s`; of several that want the same one, the nearest gets it and the others stay unmatched. Trajectories without
 /// times are matched row by row.
-/// \throws std::runtime_error if nothing matches, or if without times the numbers of poses differ
+/// \throws std::invalid_argument if a parameter is not finite or too large, std::runtime_error if nothing matches or if without times the numbers of poses differ
 [[nodiscard]] AssociatedPair associate(const Trajectory& reference, const Trajectory& estimate,
                                        const AssociationParams& params = {});
 

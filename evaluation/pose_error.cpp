@@ -164,8 +164,9 @@ IndexPairs pairs_at(const std::vector<StampedPose>& poses, const RelativeErrorPa
   switch (params.unit) {
     case DeltaUnit::kFrames:
       if (delta < 1.0 || delta != std::floor(delta)) {
-        throw std::runtime_error("--delta in frames must be a whole number of at least 1");
+        throw std::runtime_error("--delta in frames must be a whole number of at least 1: correct it, or give a --delta_unit");
       }
+      if (delta >= static_cast<double>(poses.size())) return {};
       return pairs_by_index(poses.size(), static_cast<std::size_t>(delta), params.all_pairs);
     case DeltaUnit::kMetres:
       return params.all_pairs ? all_pairs_by_path(poses, delta, tolerance) : consecutive_pairs_by_path(poses, delta);
@@ -176,7 +177,9 @@ IndexPairs pairs_at(const std::vector<StampedPose>& poses, const RelativeErrorPa
 }
 
 PoseErrors relative_pose_error(const AssociatedPair& pair, const RelativeErrorParams& params) {
-  if (!(params.delta > 0.0)) throw std::runtime_error("--delta must be a positive number");
+  if (!(params.delta > 0.0 && params.delta <= RelativeErrorParams::kLargestDelta)) {
+    throw std::runtime_error("--delta must be above 0 and at most 1e6");
+  }
   const auto& p = pair.estimate.poses;
   const auto& q = pair.reference.poses;
   PoseErrors result{.title = std::string("RPE w.r.t. ") + name_of(params.relation) + "\nfor delta = " +

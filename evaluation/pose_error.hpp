@@ -43,6 +43,7 @@ struct PoseErrors {
 [[nodiscard]] PoseErrors absolute_pose_error(const AssociatedPair& pair, PoseRelation relation);
 
 struct RelativeErrorParams {
+  static constexpr double kLargestDelta = 1e6;  ///< of whatever unit
   PoseRelation relation = PoseRelation::kTranslationPart;
   double delta = 1.0;
   DeltaUnit unit = DeltaUnit::kFrames;
@@ -53,7 +54,7 @@ struct RelativeErrorParams {
 
 /// Relative pose error: E_i = (Q_i^-1 Q_j)^-1 (P_i^-1 P_j) over the pairs (i, j) that are `delta` apart (Sturm et al., IROS
 /// 2012; evo).
-/// \throws std::runtime_error if no pair is `delta` apart
+/// \throws std::runtime_error if no pair is `delta` apart, or if `delta` is not above 0 and at most kLargestDelta
 [[nodiscard]] PoseErrors relative_pose_error(const AssociatedPair& pair, const RelativeErrorParams& params);
 
 /// The pairs of poses that are `delta` apart, as evo picks them: along the path for metres; by the accumulated angle for

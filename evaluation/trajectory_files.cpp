@@ -7,11 +7,15 @@
 #include <Eigen/SVD>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <cstdlib>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "datasets/format_error.hpp"
+#include "datasets/text_file.hpp"
+#include "datasets/trajectory.hpp"
 #include "evaluation/trajectory.hpp"
 
 namespace credo::evaluation {
@@ -19,19 +23,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kLargest = 1e6;  // metres and radians
+
 struct Row {
   int line = 0;
   std::vector<std::string_view> fields;
 };
 
 [[noreturn]] void fail(const fs::path& path, int line, const std::string& what) {
-  throw std::runtime_error(path.string() + ":" + std::to_string(line) + ": " + what);
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+  throw datasets::FormatError(path, line, what);
 }
 
 /// At commas if there is one, else at white space.
@@ -40,10 +40,10 @@ std::vector<std::string_view> split(std::string_view text) {
   std::vector<std::string_view> fields;
   while (true) {
     const auto end = commas ? text.find(',') : text.find_first_of(" \t");
-    fields.push_back(trimmed(text.substr(0, end)));
+    fields.push_back(datasets::trimmed(text.substr(0, end)));
     if (end == std::string_view::npos) return fields;
     text.remove_prefix(end + 1);
-    if (!commas) text = trimmed(text);
+    if (!commas) text = datasets::trimmed(text);
   }
 }
 
@@ -51,48 +51,34 @@ double number(const fs::path& path, const Row& row, std::size_t column) {
   const std::string_view field = row.fields[column];
   double value = 0.0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(value)) {
-    fail(path, row.line, "expected a finite number in column " + std::to_string(column + 1) + ", found '" +
-                             std::string(field) + "'");
+  if (error != std::errc{} || end != field.data() + field.size() || !(std::abs(value) <= kLargest)) {
+    fail(path, row.line, "expected a finite number (within 1e6) in column " + std::to_string(column + 1) + ", found " +
+                             datasets::in_quotes(field));
   }
   return value;
 }
 
-/// Decimal seconds to nanoseconds without going through a double, which has only 0.2 microseconds to offer for the times
-/// of this century.
 sensors::Timestamp nanoseconds(const fs::path& path, const Row& row) {
-  const std::string_view field = row.fields[0];
-  const auto point = field.find('.');
-  std::string digits(field.substr(0, point));
-  std::string fraction(point == std::string_view::npos ? std::string_view{} : field.substr(point + 1));
-  if (field.find_first_not_of("0123456789.-") != std::string_view::npos) {
-    return static_cast<sensors::Timestamp>(std::llround(number(path, row, 0) * 1e9));
+  try {
+    return datasets::parse_seconds(row.fields[0]);
+  } catch (const std::invalid_argument& error) {
+    fail(path, row.line, error.what());
   }
-  number(path, row, 0);
-  const bool round_up = fraction.size() > 9 && fraction[9] >= '5';
-  fraction.resize(9, '0');
-  digits += fraction;
-  sensors::Timestamp value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || end != digits.data() + digits.size()) {
-    fail(path, row.line, "expected a time in seconds, found '" + std::string(field) + "'");
-  }
-  return value + (round_up ? (field.front() == '-' ? -1 : 1) : 0);
 }
 
 sensors::Timestamp integer(const fs::path& path, const Row& row) {
   const std::string_view field = row.fields[0];
   sensors::Timestamp value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc{} || end != field.data() + field.size()) {
-    fail(path, row.line, "expected a time in whole nanoseconds, found '" + std::string(field) + "'");
+  if (error != std::errc{} || end != field.data() + field.size() || std::abs(value) > sensors::kLatestTime) {
+    fail(path, row.line, "expected a time in whole nanoseconds, found " + datasets::in_quotes(field));
   }
   return value;
 }
 
 Eigen::Matrix3d rotation_of(const fs::path& path, const Row& row, double w, double x, double y, double z) {
   const Eigen::Quaterniond q(w, x, y, z);
-  if (std::abs(q.norm() - 1.0) > 0.01) {
+  if (!(std::abs(q.norm() - 1.0) <= 0.01)) {
     fail(path, row.line, "expected a quaternion of norm 1, found norm " + std::to_string(q.norm()));
   }
   return q.normalized().toRotationMatrix();
@@ -160,14 +146,13 @@ fs::path file_in(const fs::path& folder) {
 
 Trajectory read_trajectory(const fs::path& given) {
   const fs::path path = fs::is_directory(given) ? file_in(given) : given;
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path.string() + ": cannot be opened: no trajectory there");
+  std::istringstream file(datasets::read_text_file(path));
   Trajectory trajectory{.name = given.string()};
   std::optional<Format> format;
   std::size_t columns = 0;
   std::string text, header;
   for (int line = 1; std::getline(file, text); ++line) {
-    const std::string_view content = trimmed(text);
+    const std::string_view content = datasets::trimmed(text);
     if (content.empty()) continue;
     if (content.front() == '#') {
       if (header.empty()) header = content.substr(1);

@@ -7,9 +7,13 @@
 
 #include <array>
 #include <charconv>
-#include <fstream>
-#include <stdexcept>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
 #include <string_view>
+
+#include "datasets/format_error.hpp"
+#include "datasets/text_file.hpp"
 
 namespace credo::results {
 namespace {
@@ -68,7 +72,31 @@ class RowReader {
     }
     return value;
   }
+  /// May be nan: that is how protection levels say that there are none.
   double real() { return number<double>(); }
+  double within(double low, double high) {
+    const double value = real();
+    if (!(value >= low && value <= high))
+      fail(fmt::format("expected a number from {} to {} in column {}, found '{}'", low, high, next_, fields_[next_ - 1]));
+    return value;
+  }
+  double length() { return within(-1e6, 1e6); }
+  double share() { return within(0.0, 1.0); }
+  evidence::BinaryMass belief() {
+    evidence::BinaryMass mass;
+    mass.yes = share();
+    mass.no = share();
+    mass.unknown = share();
+    constexpr double kRounding = 1e-3;
+    if (std::abs(mass.yes + mass.no + mass.unknown - 1.0) > kRounding) fail("the belief does not sum to 1");
+    return mass;
+  }
+  int count() { return static_cast<int>(within(0.0, 1e9)); }
+  sensors::Timestamp time() {
+    const auto value = number<sensors::Timestamp>();
+    if (std::abs(value) > sensors::kLatestTime) fail("expected a time in nanoseconds, found '" + fields_[next_ - 1] + "'");
+    return value;
+  }
   std::string text() { return fields_[next_++]; }
   Status status() {
     const std::string word = text();
@@ -80,7 +108,7 @@ class RowReader {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error(file_.string() + ":" + std::to_string(line_) + ": " + what);
+    throw datasets::FormatError(file_, line_, what);
   }
 
   const std::filesystem::path& file_;
@@ -89,24 +117,29 @@ class RowReader {
   std::size_t next_ = 0;
 };
 
+Eigen::Matrix3d read_covariance(RowReader& read) {
+  constexpr double kLargest = 1e12;
+  Eigen::Matrix3d covariance;
+  for (const auto& [i, j] : {std::pair{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}) {
+    covariance(i, j) = covariance(j, i) = read.within(i == j ? 0.0 : -kLargest, kLargest);
+  }
+  return covariance;
+}
+
 LocalizationRow read_row(RowReader read) {
   LocalizationRow row;
   localization::Localization& l = row.localization;
-  l.time = read.number<sensors::Timestamp>();
-  l.estimate.pose = {read.real(), 0.0, 0.0};
-  l.estimate.pose.y = read.real();
-  l.estimate.pose.theta = read.real();
-  for (const auto& [i, j] : {std::pair{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}) {
-    l.estimate.covariance(i, j) = l.estimate.covariance(j, i) = read.real();
-  }
-  l.belief.yes = read.real();
-  l.belief.no = read.real();
-  l.belief.unknown = read.real();
-  l.conflict = read.real();
+  l.time = read.time();
+  l.estimate.pose.x = read.length();
+  l.estimate.pose.y = read.length();
+  l.estimate.pose.theta = read.length();
+  l.estimate.covariance = read_covariance(read);
+  l.belief = read.belief();
+  l.conflict = read.share();
   l.status = read.status();
-  l.detected = read.number<int>();
-  l.matched = read.number<int>();
-  l.tracked = read.number<int>();
+  l.detected = read.count();
+  l.matched = read.count();
+  l.tracked = read.count();
   row.protection.position_low_m = read.real();
   row.protection.position_high_m = read.real();
   row.protection.heading_low_rad = read.real();
@@ -131,21 +164,20 @@ std::string to_line(const LocalizationRow& row) {
 }
 
 std::vector<LocalizationRow> read_localization(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error(file.string() + ": cannot be opened: expected the localization.csv of a run");
+  std::istringstream in(datasets::read_text_file(file));
   std::vector<LocalizationRow> rows;
   std::string text;
-  for (int line = 1; std::getline(in, text); ++line) {
-    if (line == 1) {
-      const std::string known(kLocalizationHeader.substr(0, kLocalizationHeader.size() - 1));
-      if (text.compare(0, known.size(), known) != 0) {
-        throw std::runtime_error(file.string() + ":1: this is not the header of a localization.csv: expected '" +
-                                 known + "'");
-      }
-      continue;
-    }
-    if (text.empty() || text[0] == '#') continue;
+  const std::string_view known = kLocalizationHeader.substr(0, kLocalizationHeader.size() - 1);
+  if (!std::getline(in, text) || !text.starts_with(known)) {
+    throw datasets::FormatError(file, 1, "is no localization.csv: expected the header '" + std::string(known) + "'");
+  }
+  for (int line = 2; std::getline(in, text); ++line) {
+    if (datasets::trimmed(text).empty() || text[0] == '#') continue;
     rows.push_back(read_row(RowReader(file, line, text)));
+    const std::size_t n = rows.size();
+    if (n > 1 && rows[n - 1].localization.time < rows[n - 2].localization.time) {
+      throw datasets::FormatError(file, line, "the time is before that of the row above: expected rows in order of time");
+    }
   }
   return rows;
 }

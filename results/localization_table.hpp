@@ -36,7 +36,8 @@ inline constexpr std::string_view kLocalizationHeader =
 [[nodiscard]] std::string to_line(const LocalizationRow& row);
 
 /// Reads a localization.csv. Columns appended after those known here are ignored.
-/// \throws std::runtime_error with file and line: a missing file, another header, a bad value, an unknown status
+/// \throws datasets::FormatError with file and line: a missing file, another header, a value that is not finite or
+/// cannot be (only protection levels may be nan), an unknown status, a time that decreases
 [[nodiscard]] std::vector<LocalizationRow> read_localization(const std::filesystem::path& file);
 
 }  // namespace credo::results

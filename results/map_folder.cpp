@@ -3,6 +3,7 @@
 
 #include "results/map_folder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -35,10 +36,10 @@ grids::EvidentialGrid read_map_folder(const std::filesystem::path& folder) {
     for (int column = 0; column < image.width; ++column) {
       const auto& pixel = image.pixels[static_cast<std::size_t>(image.height - 1 - row) * static_cast<std::size_t>(image.width) +
                                        static_cast<std::size_t>(column)];
-      const double sum = pixel[0] + pixel[1] + pixel[3];
-      if (!(std::abs(sum - 1.0) < 1e-3)) {
+      const double sum = pixel[0] + pixel[1] + pixel[3], least = std::min({pixel[0], pixel[1], pixel[3]});
+      if (!(std::abs(sum - 1.0) < 1e-3 && least >= 0.0)) {
         throw std::runtime_error((folder / "map_belief.tiff").string() +
-                                 ": empty, occupied and unknown do not sum to 1: was it written with --readout raw?");
+                                 ": empty, occupied and unknown are no shares that sum to 1: was it written with --readout raw?");
       }
       const evidence::FixedLogCommonality cell = cell_of(pixel);
       if (cell != evidence::FixedLogCommonality{}) grid.add({column, row}, cell);

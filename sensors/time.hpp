@@ -4,11 +4,15 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 namespace credo::sensors {
 
 /// Nanoseconds; a timestamp is the middle of the reading.
 using Timestamp = std::int64_t;
+
+/// Readers refuse times further than this from 0, in either direction: differences could overflow.
+inline constexpr Timestamp kLatestTime = std::numeric_limits<Timestamp>::max() / 2;
 
 /// `later - earlier` in seconds. Exact to a nanosecond for differences below 100 days.
 [[nodiscard]] constexpr double seconds_between(Timestamp earlier, Timestamp later) {

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace credo::evaluation {
 namespace {
 
@@ -76,6 +78,10 @@ TEST(Association, MatchesRowByRowWithoutTimes) {
   b.timed = false;
   EXPECT_EQ(matched(associate(a, b)), (Matches{{0, 5}, {1, 9}}));
   EXPECT_THROW((void)associate(c, b), std::runtime_error);
+  for (const double bad : {std::nan(""), 1e300, -1e300}) {
+    EXPECT_THROW((void)associate(b, b, {.t_offset_s = bad}), std::invalid_argument) << bad;
+    EXPECT_THROW((void)associate(b, b, {.t_max_diff_s = bad}), std::invalid_argument) << bad;
+  }
 }
 
 }  // namespace

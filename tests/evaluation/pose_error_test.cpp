@@ -100,6 +100,9 @@ TEST(Rpe, SaysWhatToDoWhenNoPairIsFarEnoughApart) {
   EXPECT_THAT([] { (void)relative_pose_error(fixture(), {.delta = 100.0, .unit = DeltaUnit::kMetres}); },
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("smaller --delta")));
   EXPECT_THROW((void)relative_pose_error(fixture(), {.delta = 1.5}), std::runtime_error);
+  for (const double delta : {std::nan(""), 0.0, -1.0, 1e300, 1e7}) {
+    EXPECT_THROW((void)relative_pose_error(fixture(), {.delta = delta}), std::runtime_error) << delta;
+  }
 }
 
 TEST(Block, IsEvosToTheByte) {

@@ -85,6 +85,11 @@ TEST_F(TrajectoryFiles, ErrorsNameFileAndLine) {
   EXPECT_THAT(read("0 0 zero 0 0 0 0 1\n"), ThrowsMessage<std::runtime_error>(HasSubstr("bad.tum:1: expected a finite")));
   EXPECT_THAT(read("0 0 nan 0 0 0 0 1\n"), ThrowsMessage<std::runtime_error>(HasSubstr("column 3")));
   EXPECT_THAT(read("0 0 0 0 0 0 0 0\n"), ThrowsMessage<std::runtime_error>(HasSubstr("quaternion")));
+  EXPECT_THAT(read("0 0 1e300 0 0 0 0 1\n"), ThrowsMessage<std::runtime_error>(HasSubstr("column 3")));
+  EXPECT_THAT(read("1e300 0 0 0 0 0 0 1\n"), ThrowsMessage<std::runtime_error>(HasSubstr("bad.tum:1: expected a time")));
+  EXPECT_THAT(read(std::string("0 0 0 0 0 0 0 1\n\0", 18)), ThrowsMessage<std::runtime_error>(HasSubstr("bad.tum:2: holds a zero byte")));
+  EXPECT_THAT([this] { (void)read_trajectory(write("bad.csv", "9223372036854775807,0,0,0\n")); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("whole nanoseconds")));
   EXPECT_THAT(read("1.2.3 0 0 0 0 0 0 1\n"), ThrowsMessage<std::runtime_error>(HasSubstr("bad.tum:1")));
   EXPECT_THAT(read("1 2 3\n"), ThrowsMessage<std::runtime_error>(HasSubstr("found 3")));
   EXPECT_THAT(read("# only a comment\n"), ThrowsMessage<std::runtime_error>(HasSubstr("no poses")));

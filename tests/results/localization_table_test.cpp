@@ -91,5 +91,32 @@ TEST_F(Table, ErrorsNameFileAndLine) {
   EXPECT_THROW((void)read_localization("no such file"), std::runtime_error);
 }
 
+TEST_F(Table, RefusesWhatCannotBe) {
+  const auto with = [this](const char* from, const char* to) {
+    std::string line = to_line(example());
+    line.replace(line.find(from), std::string(from).size(), to);
+    return [this, line] { (void)read(header_ + line); };
+  };
+  for (const char* bad : {"nan", "inf", "-inf", "1e300"}) {
+    EXPECT_THAT(with("1.250000", bad), ThrowsMessage<std::runtime_error>(HasSubstr(".csv:2: expected a number from")));
+    EXPECT_THAT(with("1.000000000e-04", bad), ThrowsMessage<std::runtime_error>(HasSubstr("column 5")));
+    EXPECT_THAT(with("2.000000000e-06", bad), ThrowsMessage<std::runtime_error>(HasSubstr("column 6")));
+    EXPECT_THAT(with("0.750000", bad), ThrowsMessage<std::runtime_error>(HasSubstr("column 11")));
+    EXPECT_THAT(with("0.031250", bad), ThrowsMessage<std::runtime_error>(HasSubstr("column 14")));
+  }
+  EXPECT_THAT(with("1.000000000e-04", "-1"), ThrowsMessage<std::runtime_error>(HasSubstr("column 5")));
+  EXPECT_THAT(with("0.750000", "0.5"), ThrowsMessage<std::runtime_error>(HasSubstr("sum to 1")));
+  EXPECT_THAT(with(",12,", ",-12,"), ThrowsMessage<std::runtime_error>(HasSubstr("column 16")));
+  EXPECT_THAT(with("1600022000012766001", "9223372036854775807"), ThrowsMessage<std::runtime_error>(HasSubstr("time")));
+}
+
+TEST_F(Table, RefusesATimeThatRunsBackwards) {
+  LocalizationRow later = example();
+  later.localization.time += 1;
+  EXPECT_THAT([&] { (void)read(header_ + to_line(later) + to_line(example())); },
+              ThrowsMessage<std::runtime_error>(HasSubstr(".csv:3: the time is before")));
+  EXPECT_EQ(read("\xEF\xBB\xBF" + header_ + to_line(example()) + "\r\n" + to_line(later)).size(), 2u);
+}
+
 }  // namespace
 }  // namespace credo::results
