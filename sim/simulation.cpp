@@ -51,7 +51,24 @@ void schedule(const Trajectory& way, double rate_hz, double phase, Reading::Kind
   for (std::size_t i = 0; i < times.size(); ++i) readings.push_back({stamp(times[i]), kind, sensor, i});
 }
 
+/// \throws std::invalid_argument where a simulation would go on for days
+void check_number_of_readings(const World& world, const Trajectory& way) {
+  constexpr double kMost = 5e6;
+  const auto count = [&way](double rate_hz) {
+    return rate_hz > 0.0 ? rate_hz * way.duration_s() : static_cast<double>(way.stops().size());
+  };
+  double readings = world.camera ? count(world.camera->rate_hz) : 0.0;
+  for (const RangeFinderSetup& setup : world.range_finders) readings += count(setup.rate_hz);
+  for (const SonarSetup& setup : world.sonars) readings += count(setup.rate_hz);
+  if (world.odometry) readings += count(world.odometry->rate_hz);
+  if (!(readings <= kMost))
+    throw std::invalid_argument("the drive takes " + std::to_string(way.duration_s()) + " s with " +
+                                std::to_string(readings) +
+                                " readings; expected at most 5 million: shorten the path, or lower the rates");
+}
+
 std::vector<Reading> schedule_all(const World& world, const Trajectory& way, std::uint64_t seed) {
+  check_number_of_readings(world, way);
   std::vector<Reading> readings;
   Random random(seed, kStartStream, 1);
   using Kind = Reading::Kind;

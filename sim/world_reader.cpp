@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -22,17 +24,20 @@ void placed(const YamlMap& map, const std::string& key, const std::function<void
   }
 }
 
-double positive(YamlMap& map, const std::string& key, double fallback) {
-  const double value = map.number(key, fallback);
-  if (value <= 0.0) map.fail(key, "'" + key + "' must be larger than 0");
-  return value;
+double not_negative(YamlMap& map, const std::string& key, double fallback) {
+  return map.number_within(key, fallback, 0.0, YamlMap::kLargest);
 }
 
-double not_negative(YamlMap& map, const std::string& key, double fallback) {
-  const double value = map.number(key, fallback);
-  if (value < 0.0) map.fail(key, "'" + key + "' must not be negative");
-  return value;
+double positive(YamlMap& map, const std::string& key, double fallback, double least = 1e-4) {
+  return map.number_within(key, fallback, least, YamlMap::kLargest);
 }
+
+double share(YamlMap& map, const std::string& key, double fallback) {
+  return map.number_within(key, fallback, 0.0, 1.0);
+}
+
+constexpr double kFastest_hz = 1000.0;
+double rate(YamlMap& map, double fallback) { return map.number_within("rate", fallback, 0.0, kFastest_hz); }
 
 void read_heights(YamlMap& map, double& z0, double& z1) {
   if (!map.has("z")) return;
@@ -65,7 +70,7 @@ void read_materials(YamlMap& building, World& world) {
     material.contrast = not_negative(map, "contrast", material.contrast);
     material.skirting = map.flag("skirting", false);
     material.infrared = not_negative(map, "infrared", material.infrared);
-    material.miss_share = not_negative(map, "miss_share", 0.0);
+    material.miss_share = share(map, "miss_share", 0.0);
     material.sonar_critical_rad = positive(map, "sonar_critical", material.sonar_critical_rad);
     map.close();
     // Names are found from the front: a world may redefine a common material.
@@ -89,7 +94,7 @@ void read_solids(YamlMap& building, Builder& builder) {
   }
   for (YamlMap& map : building.maps("pillars")) {
     placed(map, "at", [&] {
-      builder.add_pillar(map.point("at"), positive(map, "radius", 0.25), map.integer("sides", 16),
+      builder.add_pillar(map.point("at"), positive(map, "radius", 0.25), map.integer_within("sides", 16, 3, 360),
                          map.number("turn", 0.0), map.text("material", "concrete"), map.flag("in_plan", true));
     });
     map.close();
@@ -176,6 +181,17 @@ void read_light(YamlMap& building, World& world) {
   }
 }
 
+void check_size(const YamlMap& building, const World& world) {
+  constexpr double kLargest_m = 500.0;
+  if (world.panels.empty()) building.fail("rooms", "the building has no walls: give it 'rooms' or 'walls'");
+  Eigen::AlignedBox2d box;
+  for (const Panel& panel : world.panels) box.extend(panel.a).extend(panel.b);
+  if (!(box.sizes().maxCoeff() <= kLargest_m))
+    building.fail("rooms", "the building is " + std::to_string(box.sizes().x()) + " x " +
+                               std::to_string(box.sizes().y()) + " m; expected at most " + std::to_string(kLargest_m) +
+                               " m in either direction");
+}
+
 void read_building(YamlMap building, World& world) {
   world.materials = common_materials();
   read_light(building, world);
@@ -191,18 +207,18 @@ void read_building(YamlMap building, World& world) {
   read_fixtures(building, "shelves", {.width_m = 1.2, .depth_m = 0.3, .z1_m = 1.9, .material = "books"}, builder);
   read_boxes(building, world, builder);
   building.close();
-  if (world.panels.empty()) building.fail("rooms", "the building has no walls: give it 'rooms' or 'walls'");
+  check_size(building, world);
 }
 
 void read_drive(YamlMap map, Drive& drive) {
   const std::string mode = map.text("mode", "stop_and_go");
   if (mode != "stop_and_go" && mode != "continuous") map.fail("mode", "'mode' must be stop_and_go or continuous");
   drive.mode = mode == "continuous" ? Drive::Mode::kContinuous : Drive::Mode::kStopAndGo;
-  drive.step_m = positive(map, "step", drive.step_m);
-  drive.pause_s = positive(map, "pause", drive.pause_s);
-  drive.speed_mps = positive(map, "speed", drive.speed_mps);
-  drive.acceleration_mps2 = positive(map, "acceleration", drive.acceleration_mps2);
-  drive.turn_speed_radps = positive(map, "turn_speed", drive.turn_speed_radps);
+  drive.step_m = positive(map, "step", drive.step_m, 0.01);
+  drive.pause_s = map.number_within("pause", drive.pause_s, 0.01, 3600.0);
+  drive.speed_mps = positive(map, "speed", drive.speed_mps, 0.01);
+  drive.acceleration_mps2 = positive(map, "acceleration", drive.acceleration_mps2, 0.01);
+  drive.turn_speed_radps = positive(map, "turn_speed", drive.turn_speed_radps, 0.01);
   drive.turn_radius_m = positive(map, "turn_radius", drive.turn_radius_m);
   map.close();
 }
@@ -233,12 +249,12 @@ CameraSetup read_camera(YamlMap map) {
   camera.T_base_camera = read_pose(map, camera.T_base_camera);
   camera.height_m = positive(map, "height", camera.height_m);
   camera.azimuth_zero_rad = map.number("azimuth_zero", camera.azimuth_zero_rad);
-  camera.azimuth_sign = map.integer("azimuth_sign", camera.azimuth_sign);
-  if (camera.azimuth_sign != 1 && camera.azimuth_sign != -1) map.fail("azimuth_sign", "'azimuth_sign' must be 1 or -1");
-  camera.exposure_s = not_negative(map, "exposure", camera.exposure_s);
+  camera.azimuth_sign = map.integer_within("azimuth_sign", camera.azimuth_sign, -1, 1);
+  if (camera.azimuth_sign == 0) map.fail("azimuth_sign", "'azimuth_sign' must be 1 or -1");
+  camera.exposure_s = map.number_within("exposure", camera.exposure_s, 0.0, 60.0);
   if (map.has("center")) camera.center_px = map.point("center");
   if (!map.flag("rim_visible", true)) camera.rim_radius_px.reset();
-  setup.rate_hz = not_negative(map, "rate", setup.rate_hz);
+  setup.rate_hz = rate(map, setup.rate_hz);
   setup.strut_width_px = not_negative(map, "strut_width", setup.strut_width_px);
   if (map.has("struts")) {
     const YAML::Node struts = map.child("struts");
@@ -257,17 +273,16 @@ RangeFinderSetup read_range_finder(YamlMap& map) {
   finder.noise.sigma_0_m = positive(map, "sigma_0", finder.noise.sigma_0_m);
   finder.noise.k_per_m = not_negative(map, "k", finder.noise.k_per_m);
   const double field = finder.angle_increment_rad * finder.count;
-  finder.count = map.integer("count", finder.count);
-  if (finder.count < 1) map.fail("count", "'count' must be at least 1");
+  finder.count = map.integer_within("count", finder.count, 1, 100'000);
   finder.angle_increment_rad = field / finder.count;
   finder.range_min_m = not_negative(map, "range_min", finder.range_min_m);
   finder.range_max_m = positive(map, "range_max", finder.range_max_m);
-  finder.scan_time_s = not_negative(map, "scan_time", finder.scan_time_s);
-  setup.rate_hz = not_negative(map, "rate", setup.rate_hz);
+  finder.scan_time_s = map.number_within("scan_time", finder.scan_time_s, 0.0, 60.0);
+  setup.rate_hz = rate(map, setup.rate_hz);
   setup.spot_m = not_negative(map, "spot", setup.spot_m);
   setup.spot_rad = not_negative(map, "spot_growth", setup.spot_rad);
   setup.bias_per_m = not_negative(map, "bias", setup.bias_per_m);
-  setup.outlier_share = not_negative(map, "outlier_share", setup.outlier_share);
+  setup.outlier_share = share(map, "outlier_share", setup.outlier_share);
   setup.faintest = not_negative(map, "faintest", setup.faintest);
   map.close();
   return setup;
@@ -281,8 +296,8 @@ SonarSetup read_sonar(YamlMap& map) {
   setup.ring.range_min_m = not_negative(map, "range_min", setup.ring.range_min_m);
   setup.ring.range_max_m = positive(map, "range_max", setup.ring.range_max_m);
   setup.ring.sigma_m = not_negative(map, "sigma", setup.ring.sigma_m);
-  setup.rate_hz = positive(map, "rate", setup.rate_hz);
-  setup.cross_talk_share = not_negative(map, "cross_talk", setup.cross_talk_share);
+  setup.rate_hz = map.number_within("rate", setup.rate_hz, 0.01, kFastest_hz);
+  setup.cross_talk_share = share(map, "cross_talk", setup.cross_talk_share);
   map.close();
   return setup;
 }
@@ -294,7 +309,7 @@ void read_sensors(YamlMap sensors, World& world) {
   if (sensors.has("odometry")) {
     YamlMap map = sensors.map("odometry");
     OdometrySetup setup;
-    setup.rate_hz = not_negative(map, "rate", setup.rate_hz);
+    setup.rate_hz = rate(map, setup.rate_hz);
     setup.noise.translation_per_metre = not_negative(map, "translation_per_metre", setup.noise.translation_per_metre);
     setup.noise.rotation_per_metre = not_negative(map, "rotation_per_metre", setup.noise.rotation_per_metre);
     setup.noise.rotation_per_radian = not_negative(map, "rotation_per_radian", setup.noise.rotation_per_radian);
@@ -308,12 +323,12 @@ void read_nuisances(YamlMap map, Nuisances& nuisances) {
   nuisances.noise_grey = not_negative(map, "noise_grey", nuisances.noise_grey);
   nuisances.read_noise_grey = not_negative(map, "read_noise_grey", nuisances.read_noise_grey);
   nuisances.pixel_gain = not_negative(map, "pixel_gain", nuisances.pixel_gain);
-  nuisances.blur_px = not_negative(map, "blur", nuisances.blur_px);
+  nuisances.blur_px = map.number_within("blur", nuisances.blur_px, 0.0, 100.0);
   nuisances.center_px = not_negative(map, "center", nuisances.center_px);
   nuisances.tilt_rad = not_negative(map, "tilt", nuisances.tilt_rad);
   nuisances.mounting_m = not_negative(map, "mounting", nuisances.mounting_m);
   nuisances.mounting_rad = not_negative(map, "mounting_angle", nuisances.mounting_rad);
-  nuisances.dust = map.integer("dust", nuisances.dust);
+  nuisances.dust = map.integer_within("dust", nuisances.dust, 0, 10'000);
   nuisances.glare = not_negative(map, "glare", nuisances.glare);
   map.close();
 }
@@ -331,11 +346,13 @@ void state_accuracy(World& world) {
 }
 
 YAML::Node load_file(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file))
+    throw std::runtime_error(file.string() + ": is a folder; expected a world file");
   try {
     return YAML::LoadFile(file.string());
   } catch (const YAML::BadFile&) {
     throw std::runtime_error(file.string() + ": cannot read this world file: check the path");
-  } catch (const YAML::ParserException& error) {
+  } catch (const YAML::Exception& error) {
     throw std::runtime_error(file.string() + ":" + std::to_string(error.mark.line + 1) +
                              ": not valid YAML: " + error.msg);
   }
@@ -365,6 +382,8 @@ void read_world(const std::filesystem::path& file, World& world, std::set<std::s
   world.initial_pose_known = top.flag("initial_pose_known", world.initial_pose_known);
   if (top.has("initial_pose_sigma")) {
     const std::vector<double> sigma = top.numbers("initial_pose_sigma", 3);
+    if (*std::min_element(sigma.begin(), sigma.end()) <= 0.0)
+      top.fail("initial_pose_sigma", "'initial_pose_sigma' must be three numbers larger than 0");
     world.initial_pose_sigma = {sigma[0], sigma[1], sigma[2]};
   }
   if (!extends || top.has("sensors")) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 namespace credo::sim {
 namespace {
@@ -84,7 +85,17 @@ T YamlMap::value(const std::string& key, const T& fallback, const char* expected
 
 double YamlMap::number(const std::string& key, double fallback) {
   const double result = value<double>(key, fallback, "a number");
-  if (!std::isfinite(result)) fail(key, "'" + key + "' must be a finite number");
+  if (!(std::abs(result) <= kLargest)) fail(key, "'" + key + "' must be a finite number (within 1e6)");
+  return result;
+}
+
+double YamlMap::number_within(const std::string& key, double fallback, double low, double high) {
+  const double result = number(key, fallback);
+  if (!(result >= low && result <= high)) {
+    std::ostringstream message;
+    message << "'" << key << "' must be from " << low << " to " << high << ", not " << result;
+    fail(key, message.str());
+  }
   return result;
 }
 
@@ -94,13 +105,21 @@ double YamlMap::number(const std::string& key) {
 }
 
 int YamlMap::integer(const std::string& key, int fallback) { return value<int>(key, fallback, "a whole number"); }
+int YamlMap::integer_within(const std::string& key, int fallback, int low, int high) {
+  const int result = integer(key, fallback);
+  if (result < low || result > high)
+    fail(key, "'" + key + "' must be a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
+                  ", not " + std::to_string(result));
+  return result;
+}
 bool YamlMap::flag(const std::string& key, bool fallback) { return value<bool>(key, fallback, "true or false"); }
 std::string YamlMap::text(const std::string& key, const std::string& fallback) {
   return value<std::string>(key, fallback, "a text");
 }
 
 std::vector<double> YamlMap::numbers_of(const YAML::Node& node, std::size_t count, const std::string& key) const {
-  const std::string expected = "'" + key + "' must be a list of " + std::to_string(count) + " numbers";
+  const std::string expected =
+      "'" + key + "' must be a list of " + std::to_string(count) + " numbers (finite, within 1e6)";
   const auto where = [&] { return location(file_, node.IsDefined() ? node.Mark() : node_.Mark()); };
   if (!node.IsDefined() || !node.IsSequence() || node.size() != count) throw std::runtime_error(where() + expected);
   std::vector<double> numbers;
@@ -110,7 +129,7 @@ std::vector<double> YamlMap::numbers_of(const YAML::Node& node, std::size_t coun
     } catch (const YAML::Exception&) {
       throw std::runtime_error(where() + expected);
     }
-    if (!std::isfinite(numbers.back())) throw std::runtime_error(where() + expected);
+    if (!(std::abs(numbers.back()) <= kLargest)) throw std::runtime_error(where() + expected);
   }
   return numbers;
 }
@@ -136,8 +155,15 @@ std::vector<Eigen::Vector2d> YamlMap::points(const std::string& key) {
 }
 
 void YamlMap::close() const {
+  std::vector<std::string> seen;
   for (const auto& entry : node_) {
-    const auto key = entry.first.as<std::string>();
+    if (!entry.first.IsScalar())
+      throw std::runtime_error(location(file_, entry.first.Mark()) + "expected a key in " + what_ +
+                               ", found a list or a map");
+    const std::string& key = entry.first.Scalar();
+    if (std::find(seen.begin(), seen.end(), key) != seen.end())
+      throw std::runtime_error(location(file_, entry.first.Mark()) + "the key '" + key + "' comes twice in " + what_);
+    seen.push_back(key);
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     const std::string near = nearest_word(key, known_);
     throw std::runtime_error(location(file_, entry.first.Mark()) + "unknown key '" + key + "' in " + what_ +

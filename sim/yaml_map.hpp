@@ -15,6 +15,8 @@ namespace credo::sim {
 /// line and the nearest known key. `close` must be called when all keys have been read.
 class YamlMap {
  public:
+  static constexpr double kLargest = 1e6;  ///< of any number, in either direction
+
   /// \throws std::runtime_error  unless the node is a map.
   YamlMap(YAML::Node node, std::string file, std::string what);
 
@@ -28,6 +30,9 @@ class YamlMap {
   [[nodiscard]] int integer(const std::string& key, int fallback);
   [[nodiscard]] bool flag(const std::string& key, bool fallback);
   [[nodiscard]] std::string text(const std::string& key, const std::string& fallback);
+  /// \throws where the number is not from `low` to `high`
+  [[nodiscard]] double number_within(const std::string& key, double fallback, double low, double high);
+  [[nodiscard]] int integer_within(const std::string& key, int fallback, int low, int high);
   /// A list of `count` numbers. \throws where it is absent or of another length
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count);
   [[nodiscard]] std::vector<double> numbers_of(const YAML::Node& node, std::size_t count, const std::string& key) const;

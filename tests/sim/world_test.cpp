@@ -145,7 +145,18 @@ TEST(WorldFile, ComplaintsNameFileLineAndWhatToDo) {
       {"[4, 0]", "[4, .nan]", ":5:", "2 numbers"},
       {"[[0, 0], [4, 0], [4, 3], [0, 3]]", "[[0, 0], [4, 0]]", ":5:", "at least 3 corners"},
       {"opensimple", "opensimpel", ":9:", "did you mean 'opensimple'"},
-      {"preset: opensimple", "preset: opensimple, k: -1", ":9:", "must not be negative"},
+      {"preset: opensimple", "preset: opensimple, k: -1", ":9:", "from 0 to 1e+06, not -1"},
+      {"preset: opensimple", "preset: opensimple, count: 1000000000", ":9:", "from 1 to 100000"},
+      {"preset: opensimple", "preset: opensimple, rate: 1e300", ":9:", "finite number"},
+      {"preset: opensimple", "preset: opensimple, rate: .nan", ":9:", "finite number"},
+      {"preset: opensimple", "preset: opensimple, k: 0, k: 1", ":9:", "comes twice"},
+      {"preset: opensimple", "preset: opensimple, [1]: 1", ":9:", "expected a key"},
+      {"path:", "  pillars: [{at: [2, 2], sides: 2000000000}]\npath:", ":6:", "from 3 to 360"},
+      {"path:", "drive: {step: 1e-12}\npath:", ":6:", "from 0.01"},
+      {"path:", "drive: {speed: 1e-9}\npath:", ":6:", "from 0.01"},
+      {"path:", "initial_pose_sigma: [0, 1, 1]\npath:", ":6:", "larger than 0"},
+      {"[4, 0]", "[1e300, 0]", ":5:", "2 numbers"},
+      {"[4, 0]", "[90000, 0]", ":5:", "at most 500"},
       {"preset: opensimple", "preset: opensimple, count: many", ":9:", "whole number"},
       {"preset: opensimple", "preset: opensimple, rnage_max: 3", ":9:", "did you mean 'range_max'"},
       {"path: [[1, 1], [2, 1]]", "path: [[1, 1]]", ":6:", "at least two waypoints"},
@@ -204,6 +215,11 @@ TEST(WorldFile, TheManualsExampleLoadsAndItsDefaultsAreTrue) {
   EXPECT_EQ(world.camera->struts_rad, camera_preset("conic-640").struts_rad);
   EXPECT_EQ(world.camera->strut_width_px, camera_preset("conic-640").strut_width_px);
   EXPECT_EQ(world.sonars[0].cross_talk_share, SonarSetup{}.cross_talk_share);
+}
+
+TEST(WorldFile, AFolderIsNone) {
+  EXPECT_THAT([] { (void)load_world(own_folder()); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("is a folder; expected a world file")));
 }
 
 TEST(WorldFile, AMissingFileSaysSo) {
