@@ -7,13 +7,14 @@
 
 #include "apps/commands.hpp"
 #include "apps/demo_world.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/run.hpp"
 #include "apps/run_report.hpp"
 #include "apps/simulate.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/map_server.hpp"
 #include "evaluation/map_accuracy.hpp"
-#include "results/staged_folder.hpp"
+#include "results/results_folder.hpp"
 
 namespace credo::apps {
 namespace {
@@ -69,7 +70,7 @@ void add_demo(CLI::App& app) {
                   "  credo demo --out /tmp/demo --seed 2");
   auto options = std::make_shared<DemoOptions>();
   command->add_option("-o,--out", options->out, "folder for the dataset, the results and the pictures")->capture_default_str();
-  command->add_option("--seed", options->seed, "of the simulation")->capture_default_str();
+  command->add_option("--seed", options->seed, "of the simulation")->check(any_seed())->capture_default_str();
   command->callback([options] { demo(*options); });
 }
 

@@ -7,7 +7,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "apps/about.hpp"
 #include "apps/evaluate.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "datasets/floor_plan_file.hpp"
 #include "evaluation/map_accuracy.hpp"
@@ -49,10 +51,10 @@ void add_evaluate_map(CLI::App& evaluate) {
   auto o = std::make_shared<MapOptions>();
   command->add_option("TRUTH", o->truth, "a dataset folder, a map_server YAML, or a floor_plan.yaml")->required();
   command->add_option("RESULT", o->result, "a folder with map.yaml and map_belief.tiff")->required();
-  command->add_option("--tolerance", o->params.tolerance_cells, "at walls, in cells")->check(CLI::Range(0, 100))->capture_default_str();
+  command->add_option("--tolerance", o->params.tolerance_cells, "at walls, in cells")->check(number_in(0, 100))->capture_default_str();
   add_format_option(*command, o->format);
   command->callback([o] {
-    const evaluation::MapAccuracy a = accuracy_of(*o);
+    const evaluation::MapAccuracy a = about(o->truth + " and " + o->result, [&] { return accuracy_of(*o); });
     if (o->format.json()) {
       print(nlohmann::ordered_json{{"accuracy", a.accuracy()}, {"observed", a.observed}, {"correct", a.correct},
                                    {"undecided", a.undecided}, {"wrongly_empty", a.wrongly_empty},

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "apps/evaluate.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "evaluation/pose_error.hpp"
@@ -27,6 +30,8 @@ const std::map<std::string, evaluation::DeltaUnit> kUnits{{"f", evaluation::Delt
                                                          {"m", evaluation::DeltaUnit::kMetres},
                                                          {"d", evaluation::DeltaUnit::kDegrees},
                                                          {"r", evaluation::DeltaUnit::kRadians}};
+
+constexpr double kLeastDelta = 1e-6;  // of whatever unit
 
 struct PairOptions {
   std::string reference, result, relation = "trans_part", fail_above;
@@ -48,9 +53,13 @@ void add_pair_options(CLI::App& command, PairOptions& o) {
   command.add_flag("-a,--align", o.alignment.align, "Umeyama alignment (in the plane, where the data are planar)");
   command.add_flag("-s,--correct_scale", o.alignment.correct_scale, "correct the scale, too");
   command.add_flag("--align_origin", o.alignment.align_origin, "make the first poses agree");
-  command.add_option("--n_to_align", o.alignment.n_to_align, "poses for the alignment; -1: all")->capture_default_str();
-  command.add_option("--t_max_diff", o.association.t_max_diff_s, "largest difference in time of a match [s]")->capture_default_str();
-  command.add_option("--t_offset", o.association.t_offset_s, "added to the times of the result [s]")->capture_default_str();
+  command.add_option("--n_to_align", o.alignment.n_to_align, "poses for the alignment; -1: all")
+      ->check(number_in(-1, std::numeric_limits<int>::max()))->capture_default_str();
+  command.add_option("--t_max_diff", o.association.t_max_diff_s, "largest difference in time of a match [s]")
+      ->check(number_in(0.0, evaluation::AssociationParams::kLargest_s))->capture_default_str();
+  command.add_option("--t_offset", o.association.t_offset_s, "added to the times of the result [s]")
+      ->check(number_in(-evaluation::AssociationParams::kLargest_s, evaluation::AssociationParams::kLargest_s))
+      ->capture_default_str();
   command.add_flag("--interpolate", o.association.interpolate, "interpolate the reference to the times of the result");
   command.add_option("--fail_above", o.fail_above, "STATISTIC=VALUE: exit with an error if it is above, e.g. rmse=0.1");
   add_format_option(command, o.format);
@@ -63,17 +72,12 @@ std::map<std::string, double> by_name(const evaluation::Statistics& s) {
 void apply_gate(const std::string& gate, const evaluation::Statistics& statistics) {
   if (gate.empty()) return;
   const auto all = by_name(statistics);
-  const std::size_t cut = gate.find('=');
+  const std::size_t cut = std::min(gate.find('='), gate.size() - 1);
   const auto found = all.find(gate.substr(0, cut));
-  std::size_t used = 0;
   double limit = 0.0;
-  try {
-    if (cut != std::string::npos) limit = std::stod(gate.substr(cut + 1), &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (found == all.end() || used == 0 || used != gate.size() - cut - 1) {
-    throw std::runtime_error("--fail_above " + gate + ": expected STATISTIC=VALUE with one of max, mean, median, min, rmse, sse, std");
+  if (found == all.end() || !parse(gate.substr(cut + 1), limit) || !std::isfinite(limit)) {
+    throw std::runtime_error("--fail_above " + gate + ": expected STATISTIC=VALUE with one of max, mean, median, min, rmse, sse, "
+                             "std and a finite number");
   }
   if (!(found->second <= limit)) {
     throw std::runtime_error("--fail_above " + gate + ": " + found->first + " is " + std::to_string(found->second));
@@ -146,9 +150,11 @@ void add_rpe(CLI::App& evaluate) {
       "  credo evaluate rpe datasets/office results/office -d 5 -u m --all_pairs");
   auto o = std::make_shared<RpeOptions>();
   add_pair_options(*command, *o);
-  command->add_option("-d,--delta", o->params.delta, "distance of the two poses of a pair")->capture_default_str();
+  command->add_option("-d,--delta", o->params.delta, "distance of the two poses of a pair")
+      ->check(number_in(kLeastDelta, evaluation::RelativeErrorParams::kLargestDelta))->capture_default_str();
   command->add_option("-u,--delta_unit", o->unit, "frames, metres, degrees or radians")->check(CLI::IsMember(kUnits))->capture_default_str();
-  command->add_option("-t,--delta_tol", o->params.relative_tolerance, "of delta, with --all_pairs")->capture_default_str();
+  command->add_option("-t,--delta_tol", o->params.relative_tolerance, "of delta, with --all_pairs")
+      ->check(number_in(0.0, 1.0))->capture_default_str();
   command->add_flag("--all_pairs", o->params.all_pairs, "every start, not only pairs that follow each other");
   command->add_flag("--pairs_from_reference", o->params.pairs_from_reference, "choose the pairs on the reference");
   command->callback([o] {
@@ -207,7 +213,8 @@ void add_traj(CLI::App& evaluate) {
   auto o = std::make_shared<TrajOptions>();
   command->add_option("PATHS", o->paths, "trajectories, dataset or results folders")->required();
   command->add_option("--ref", o->reference, "a reference to compare each with");
-  command->add_option("--t_max_diff", o->association.t_max_diff_s, "largest difference in time of a match [s]")->capture_default_str();
+  command->add_option("--t_max_diff", o->association.t_max_diff_s, "largest difference in time of a match [s]")
+      ->check(number_in(0.0, evaluation::AssociationParams::kLargest_s))->capture_default_str();
   add_format_option(*command, o->format);
   command->callback([o] { run_traj(*o); });
 }

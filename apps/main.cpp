@@ -3,11 +3,15 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "apps/commands.hpp"
+#include "apps/interrupt.hpp"
 #include "apps/terminal.hpp"
+#include "apps/usage_hint.hpp"
 
 namespace {
 
@@ -44,12 +48,25 @@ int main(int argc, char** argv) {
     credo::apps::add_evaluate(app);
     credo::apps::add_info(app);
     app.parse(argc, argv);
-    return 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
+    credo::apps::say_error("standard output cannot be written: is the disk full?");
+    return kUserError;
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    credo::apps::say_error(std::string(error.what()) + "\ncredo: `credo --help` and `credo SUBCOMMAND --help` show examples");
+    const std::string hint = credo::apps::usage_hint(app, argc, argv);
+    credo::apps::say_error((hint.empty() ? error.what() : hint) +
+                           "\ncredo: `credo --help` and `credo SUBCOMMAND --help` show examples");
     return kUsageError;
+  } catch (const credo::apps::Interrupted& interrupted) {
+    credo::apps::say_error(interrupted.what());
+    return 128 + interrupted.signal();
+  } catch (const std::filesystem::filesystem_error& error) {
+    credo::apps::say_error(error.path1().string() + ": cannot be read or written: " + error.code().message());
+    return kUserError;
+  } catch (const std::bad_alloc&) {
+    credo::apps::say_error("out of memory: a coarser --resolution or a shorter drive needs less");
+    return kUserError;
   } catch (const std::exception& error) {
     credo::apps::say_error(error.what());
     return kUserError;

@@ -2,13 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
+#include "apps/about.hpp"
 #include "apps/commands.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/output.hpp"
+#include "apps/picture_folder.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/carmen.hpp"
 #include "datasets/map_server.hpp"
@@ -17,7 +24,7 @@
 #include "results/belief_tiff.hpp"
 #include "results/config.hpp"
 #include "results/pictures.hpp"
-#include "results/staged_folder.hpp"
+#include "results/results_folder.hpp"
 
 namespace credo::apps {
 namespace {
@@ -108,9 +115,12 @@ mapping::TrajectoryMap build(const MapOptions& o, const std::vector<Part>& parts
   mapping::TrajectoryMap map{.grid = grids::EvidentialGrid(o.params.mapper.georeference), .counts = {}};
   Progress progress("mapping");
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    progress.update(static_cast<double>(i) / static_cast<double>(parts.size()));
+    const auto report = [&](double share) {
+      Interruptible::check();
+      progress.update((static_cast<double>(i) + share) / static_cast<double>(parts.size()));
+    };
     const Part& part = parts[i];
-    const mapping::TrajectoryMap one = mapping::map_along(part.path, part.rig, part.scans, part.sweeps, o.params);
+    const mapping::TrajectoryMap one = mapping::map_along(part.path, part.rig, part.scans, part.sweeps, o.params, report);
     map.grid.merge(one.grid);
     map.counts += one.counts;
     map.without_pose += one.without_pose;
@@ -118,34 +128,71 @@ mapping::TrajectoryMap build(const MapOptions& o, const std::vector<Part>& parts
   return map;
 }
 
-void write(const MapOptions& o, const mapping::TrajectoryMap& map, const std::vector<Part>& parts, const std::string& poses) {
-  results::StagedFolder folder(o.out, o.force);
-  datasets::write_map(datasets::to_occupancy(map.grid), folder.path() / "map.yaml");
-  const auto channels = o.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized;
-  results::write_belief_tiff(results::belief_image(map.grid, channels), folder.path() / "map_belief.tiff");
-  results::write_text(folder.path() / "config.yaml", results::to_yaml(o.params, CREDO_VERSION, o.source, poses));
-  if (!o.pictures.empty()) {
-    std::vector<geometry::Pose2> way;
-    for (const auto& row : parts.front().path.rows()) way.push_back(row.T_odom_base);
-    fs::create_directories(o.pictures);
-    results::write_png(fs::path(o.pictures) / "map.png", results::map_picture(map.grid, way));
+/// Time from the first to the last of some rows, for a message.
+struct TimeSpan {
+  sensors::Timestamp first = std::numeric_limits<sensors::Timestamp>::max();
+  sensors::Timestamp last = std::numeric_limits<sensors::Timestamp>::min();
+
+  template <typename Row>
+  void cover(const std::vector<Row>& rows) {
+    if (rows.empty()) return;
+    first = std::min(first, rows.front().time);
+    last = std::max(last, rows.back().time);
   }
-  folder.commit();
+  [[nodiscard]] std::string text() const { return datasets::to_seconds(first) + " to " + datasets::to_seconds(last) + " s"; }
+};
+
+/// Readings that cannot be placed are left out, and that is said; poses that place none of them are a mistake.
+void check_overlap(const MapOptions& o, const std::vector<Part>& parts, const mapping::TrajectoryMap& map,
+                   const std::string& poses) {
+  const std::int64_t placed = map.counts.scans + map.counts.sweeps, all = placed + map.without_pose;
+  if (all == 0) throw std::runtime_error(o.source + ": holds no reading of the sensors that --sensors asks for");
+  TimeSpan readings, path;
+  for (const Part& part : parts) {
+    readings.cover(part.scans);
+    readings.cover(part.sweeps);
+    path.cover(part.path.rows());
+  }
+  const std::string message = std::to_string(map.without_pose) + " of " + std::to_string(all) +
+                              " readings have no pose near in time: the readings are from " + readings.text() + ", " + poses +
+                              " from " + path.text();
+  if (placed == 0) throw std::runtime_error(o.source + ": " + message + "; are they of the same drive?");
+  if (10 * map.without_pose > all) say_warning(message);
+}
+
+void write(const MapOptions& o, const mapping::TrajectoryMap& map, const std::vector<Part>& parts, const std::string& poses,
+           const fs::path& folder, const std::optional<PictureFolder>& pictures) {
+  datasets::write_map(datasets::to_occupancy(map.grid), folder / "map.yaml");
+  const auto channels = o.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized;
+  results::write_belief_tiff(results::belief_image(map.grid, channels), folder / "map_belief.tiff");
+  results::write_text(folder / "config.yaml", results::to_yaml(o.params, CREDO_VERSION, o.source, poses));
+  if (!pictures) return;
+  std::vector<geometry::Pose2> way;
+  for (const auto& row : parts.front().path.rows()) way.push_back(row.T_odom_base);
+  results::write_png(pictures->path() / "map.png", results::map_picture(map.grid, way));
+  pictures->publish();
+}
+
+std::vector<Part> parts_of(const MapOptions& o, std::string& poses) {
+  if (datasets::Dataset::is_dataset(o.source)) return parts_of_dataset(o, poses);
+  if (fs::is_regular_file(o.source) && datasets::is_carmen(o.source)) return parts_of_carmen(o, poses);
+  throw std::runtime_error(o.source + (fs::exists(o.source) ? "" : ": is not there") +
+                           ": expected a dataset folder (with a dataset.yaml) or a CARMEN log");
 }
 
 void execute(MapOptions o) {
   std::string poses;
-  std::vector<Part> parts;
-  if (datasets::Dataset::is_dataset(o.source)) {
-    parts = parts_of_dataset(o, poses);
-  } else if (fs::is_regular_file(o.source) && datasets::is_carmen(o.source)) {
-    parts = parts_of_carmen(o, poses);
-  } else {
-    throw std::runtime_error(o.source + ": expected a dataset folder (with a dataset.yaml) or a CARMEN log");
-  }
+  const std::vector<Part> parts = parts_of(o, poses);
   if (o.out.empty()) o.out = (fs::path("results") / (fs::path(o.source).lexically_normal().stem().string() + "_map")).string();
-  const mapping::TrajectoryMap map = build(o, parts);
-  write(o, map, parts, poses);
+  const Interruptible interruptible;
+  datasets::StagedFolder folder = results::stage_results(o.out, o.force);
+  std::optional<PictureFolder> pictures;
+  if (!o.pictures.empty()) pictures.emplace(o.pictures, o.out, folder.path(), o.force);
+  const mapping::TrajectoryMap map = about(o.source, [&] { return build(o, parts); });
+  check_overlap(o, parts, map, poses);
+  about(o.source, [&] { write(o, map, parts, poses, folder.path(), pictures); });
+  Interruptible::check();
+  folder.commit();
   const grids::CellBox box = map.grid.bounding_box();
   if (o.format.json()) {
     print(nlohmann::ordered_json{{"map", o.out}, {"poses", poses}, {"scans", map.counts.scans},
@@ -177,7 +224,7 @@ void add_map(CLI::App& app) {
   command->add_option("--sensors", o->sensors, "what to map with: range, sonar or both")
       ->delimiter(',')->check(CLI::IsMember({"range", "sonar"}))->capture_default_str();
   command->add_option("--resolution", o->params.mapper.georeference.resolution_m, "side of a cell [m]")
-      ->check(CLI::Range(0.001, 10.0))->capture_default_str();
+      ->check(any_resolution())->capture_default_str();
   command->add_option("--readout", o->readout, "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
       ->check(CLI::IsMember({"normalized", "raw"}))->capture_default_str();
   command->add_option("--pictures", o->pictures, "folder for map.png");

@@ -14,6 +14,9 @@ void add_format_option(CLI::App& command, OutputFormat& format) {
       ->capture_default_str();
 }
 
-void print(const nlohmann::ordered_json& value) { std::printf("%s\n", value.dump(2).c_str()); }
+void print(const nlohmann::ordered_json& value) {
+  using nlohmann::ordered_json;
+  std::printf("%s\n", value.dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
+}
 
 }  // namespace credo::apps

@@ -18,7 +18,7 @@ struct OutputFormat {
 
 void add_format_option(CLI::App& command, OutputFormat& format);
 
-/// To standard output, indented; numbers that are not finite become null.
+/// To standard output, indented; numbers that are not finite become null, bytes that are no UTF-8 a replacement.
 void print(const nlohmann::ordered_json& value);
 
 }  // namespace credo::apps

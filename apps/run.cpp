@@ -6,7 +6,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "apps/about.hpp"
 #include "apps/commands.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "apps/run_pictures.hpp"
 #include "apps/run_report.hpp"
@@ -18,16 +21,6 @@ namespace credo::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Pictures that belong into the results are drawn where these are being written.
-fs::path picture_folder(const fs::path& wanted, const fs::path& out, const fs::path& working, bool force) {
-  const fs::path inside = fs::absolute(wanted).lexically_normal().lexically_relative(fs::absolute(out).lexically_normal());
-  if (!inside.empty() && *inside.begin() != "..") return working / inside;
-  if (!force && fs::exists(wanted) && !fs::is_empty(wanted)) {
-    throw std::runtime_error(wanted.string() + ": is there already: choose another folder for the pictures, or add --force");
-  }
-  return wanted;
-}
 
 PipelineParams params_of(const RunOptions& options) {
   PipelineParams params =
@@ -44,7 +37,7 @@ void execute(const RunOptions& options, const OutputFormat& format) {
   const datasets::Dataset dataset = datasets::Dataset::open(options.dataset);
   print_remarks(dataset);
   fs::path out;
-  const Outcome outcome = run_and_write(dataset, options, out);
+  const Outcome outcome = about(options.dataset, [&] { return run_and_write(dataset, options, out); });
   if (format.json()) {
     nlohmann::ordered_json report = to_json(outcome, dataset);
     report["results"] = out.string();
@@ -60,14 +53,16 @@ void execute(const RunOptions& options, const OutputFormat& format) {
 Outcome run_and_write(const datasets::Dataset& dataset, const RunOptions& options, fs::path& out) {
   out = options.out.empty() ? fs::path("results") / dataset.header.name : fs::path(options.out);
   const PipelineParams params = params_of(options);
+  const Interruptible interruptible;
   results::ResultsWriter writer(out, options.force);
   std::optional<RunPictures> pictures;
   if (!options.pictures.empty()) {
-    pictures.emplace(picture_folder(options.pictures, out, writer.working_folder(), options.force), dataset,
+    pictures.emplace(PictureFolder(options.pictures, out, writer.working_folder(), options.force), dataset,
                      options.picture_moments);
   }
   Progress progress("running " + dataset.header.name);
   const Outcome outcome = run(dataset, params, [&](const Step& step) {
+    Interruptible::check();
     writer.add(step.scene, step.fix, step.localizer.tracks());
     if (pictures) pictures->draw(step);
     progress.update(static_cast<double>(step.index + 1) / static_cast<double>(step.count));
@@ -80,6 +75,8 @@ Outcome run_and_write(const datasets::Dataset& dataset, const RunOptions& option
                                                         .observer = params.observer,
                                                         .localizer = params.localizer,
                                                         .mapper = params.mapper}));
+  Interruptible::check();
+  if (pictures) pictures->publish();
   writer.finish();
   return outcome;
 }
@@ -99,9 +96,9 @@ void add_run(CLI::App& app) {
       ->check(CLI::IsMember({"default", "paper"}))->capture_default_str();
   command->add_option("--pictures", options->pictures, "folder for pictures of some acquisitions and of the whole run");
   command->add_option("--moments", options->picture_moments, "how many acquisitions are drawn")
-      ->check(CLI::Range(0, 100000))->capture_default_str();
+      ->check(number_in(0, 100'000))->capture_default_str();
   command->add_option("--resolution", options->resolution_m, "side of a map cell [m]")
-      ->check(CLI::Range(0.001, 10.0))->capture_default_str();
+      ->check(any_resolution())->capture_default_str();
   command->add_option("--readout", options->readout, "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
       ->check(CLI::IsMember({"normalized", "raw"}))->capture_default_str();
   command->add_flag("-f,--force", options->force, "replace results that are already there");

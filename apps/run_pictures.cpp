@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <utility>
 
 #include "results/pictures.hpp"
 
@@ -26,17 +26,13 @@ bool is_drawn(std::size_t index, std::size_t count, int wanted) {
 
 }  // namespace
 
-RunPictures::RunPictures(std::filesystem::path folder, const datasets::Dataset& dataset, int moments)
-    : folder_(std::move(folder)), dataset_(&dataset), moments_(moments) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error) throw std::runtime_error(folder_.string() + ": the folder cannot be made: " + error.message());
-}
+RunPictures::RunPictures(PictureFolder folder, const datasets::Dataset& dataset, int moments)
+    : folder_(std::move(folder)), dataset_(&dataset), moments_(moments) {}
 
 void RunPictures::draw(const Step& step) const {
   if (!is_drawn(step.index, step.count, moments_)) return;
   const datasets::DatasetHeader& header = dataset_->header;
-  const auto file = [&](const char* what) { return folder_ / fmt::format("{}_{:04}.png", what, step.index); };
+  const auto file = [&](const char* what) { return folder_.path() / fmt::format("{}_{:04}.png", what, step.index); };
   if (step.acquisition.image && header.rig.camera) {
     results::write_png(file("omni"), results::omni_picture(*step.acquisition.image, *header.rig.camera, step.scene));
   }
@@ -53,11 +49,11 @@ void RunPictures::draw_summary(const Outcome& outcome) const {
   if (outcome.history.empty()) return;
   const bool truth = std::any_of(outcome.history.begin(), outcome.history.end(),
                                  [](const results::Moment& m) { return m.truth.has_value(); });
-  if (truth) results::write_png(folder_ / "errors.png", results::error_picture(outcome.history));
-  results::write_png(folder_ / "beliefs.png", results::belief_picture(outcome.history));
+  if (truth) results::write_png(folder_.path() / "errors.png", results::error_picture(outcome.history));
+  results::write_png(folder_.path() / "beliefs.png", results::belief_picture(outcome.history));
   std::vector<geometry::Pose2> way;
   for (const results::Moment& m : outcome.history) way.push_back(m.localization.estimate.pose);
-  results::write_png(folder_ / "map.png", results::map_picture(outcome.map, way));
+  results::write_png(folder_.path() / "map.png", results::map_picture(outcome.map, way));
 }
 
 }  // namespace credo::apps

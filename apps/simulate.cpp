@@ -8,7 +8,10 @@
 #include <stdexcept>
 #include <thread>
 
+#include "apps/about.hpp"
 #include "apps/commands.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/dataset_writer.hpp"
 #include "datasets/map_server.hpp"
@@ -89,17 +92,24 @@ sim::Sink sink_into(datasets::DatasetWriter& writer, Progress& progress) {
                 }
               },
           .event = [&](sensors::Timestamp time, std::string_view name) { writer.add_event({time, std::string(name)}); },
-          .progress = [&](double share) { progress.update(share); }};
+          .progress =
+              [&](double share) {
+                Interruptible::check();
+                progress.update(share);
+              }};
 }
 
 }  // namespace
 
 void simulate_into(const sim::World& world, std::uint64_t seed, const fs::path& out, bool force) {
-  const sim::Simulation simulation(world, seed);
+  const sim::Simulation simulation = about("world " + world.name, [&] { return sim::Simulation(world, seed); });
+  const Interruptible interruptible;
   datasets::DatasetWriter writer(out, header_of(simulation), {.overwrite = force});
+  writer.record_events();
   Progress progress("simulating " + world.name);
   simulation.run(sink_into(writer, progress), static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   write_truth_map(simulation.truth_map(), writer.working_folder() / "truth_map.yaml");
+  Interruptible::check();
   writer.finish();
 }
 
@@ -111,7 +121,8 @@ void add_simulate(CLI::App& app) {
   auto options = std::make_shared<SimulateOptions>();
   command->add_option("WORLD", options->world, "a world file (YAML), or the name of a world that comes with credo")->required();
   command->add_option("-o,--out", options->out, "folder for the dataset")->required();
-  command->add_option("--seed", options->seed, "of all that is random; the same seed gives the same bytes")->capture_default_str();
+  command->add_option("--seed", options->seed, "of all that is random; the same seed gives the same bytes")
+      ->check(any_seed())->capture_default_str();
   command->add_flag("-f,--force", options->force, "replace a dataset that is already there");
   command->callback([options] {
     simulate_into(sim::load_world(find_world(options->world)), options->seed, options->out, options->force);

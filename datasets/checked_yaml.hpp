@@ -88,7 +88,4 @@ class CheckedMap {
 /// Reads a YAML file of one document as a value. \throws FormatError: missing, empty, not YAML, binary.
 [[nodiscard]] CheckedValue load_yaml(const std::filesystem::path& file);
 
-/// The word nearest to `word` by edit distance, if it is near enough to be what was meant.
-[[nodiscard]] std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& words);
-
 }  // namespace credo::datasets

@@ -16,6 +16,7 @@
 #include "datasets/format_error.hpp"
 #include "datasets/number_text.hpp"
 #include "datasets/sensor_yaml.hpp"
+#include "datasets/staged_folder.hpp"
 
 namespace credo::datasets {
 namespace {
@@ -116,23 +117,23 @@ bool finite(const geometry::Pose2& pose) {
   return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta);
 }
 
-/// A folder of its own beside the target, not used by anybody else.
-fs::path make_working_folder(const fs::path& target) {
-  const fs::path parent = target.parent_path().empty() ? fs::path(".") : target.parent_path();
-  fs::create_directories(parent);
-  for (int attempt = 0; attempt < 1000; ++attempt) {
-    const fs::path folder =
-        parent / ("." + target.filename().string() + ".partial" + (attempt > 0 ? std::to_string(attempt) : ""));
-    if (fs::create_directory(folder)) return folder;
-  }
-  throw std::runtime_error(parent.string() + ": too many unfinished datasets (.*.partial*); remove them");
+/// Only a dataset is replaced, and only if that is allowed.
+StagedFolder::RequireReplaceable replaceable(bool overwrite) {
+  return [overwrite](const fs::path& there) {
+    if (!overwrite)
+      throw std::runtime_error(there.string() +
+                               ": is there already: choose another folder, or replace it with --force");
+    if (!Dataset::is_dataset(there))
+      throw std::runtime_error(there.string() +
+                               ": is there and is no dataset: it is not replaced; choose another folder");
+  };
 }
 
 }  // namespace
 
 struct DatasetWriter::State {
-  fs::path target;
-  fs::path working;  ///< empty once finished
+  StagedFolder staged;
+  fs::path working;
   DatasetHeader header;
   WriterParams params;
   std::optional<Table> images, odometry, truth, verticals, events;
@@ -140,32 +141,9 @@ struct DatasetWriter::State {
   std::string last_image_name;
   int same_name = 0;
 
-  State(const fs::path& path, const DatasetHeader& about, const WriterParams& given)
-      : target(path.has_filename() ? path : path.parent_path()), header(about), params(given) {
-    require_free_target();
-    working = make_working_folder(target);
-    try {
-      write_head();
-    } catch (...) {
-      discard();
-      throw;
-    }
-  }
-  ~State() { discard(); }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-
-  void require_free_target() const {
-    if (!fs::exists(target) || (fs::is_directory(target) && fs::is_empty(target))) return;
-    if (!params.overwrite)
-      throw std::runtime_error(target.string() + ": is there already; choose another name or allow to overwrite it");
-    if (!Dataset::is_dataset(target))
-      throw std::runtime_error(target.string() + ": is there and is no dataset; it is not overwritten");
-  }
-
-  void discard() noexcept {
-    std::error_code ignored;
-    if (!working.empty()) fs::remove_all(working, ignored);
+  State(const fs::path& target, const DatasetHeader& about, const WriterParams& given)
+      : staged(target, replaceable(given.overwrite)), working(staged.path()), header(about), params(given) {
+    write_head();
   }
 
   template <typename Sensor>
@@ -345,29 +323,19 @@ void DatasetWriter::add_true_vertical(const TrueVertical& vertical) {
 void DatasetWriter::add_event(const Event& event) {
   if (event.name.empty() || event.name.find('\n') != std::string::npos)
     throw std::invalid_argument("an event needs a name of one line");
-  if (!state_->events) state_->events.emplace(state_->working / "events.csv", "#timestamp [ns],event");
+  record_events();
   state_->events->begin_row(event.time);
   state_->events->add(event.name);
   state_->events->end_row();
 }
 
+void DatasetWriter::record_events() {
+  if (!state_->events) state_->events.emplace(state_->working / "events.csv", "#timestamp [ns],event");
+}
+
 void DatasetWriter::finish() {
   state_->close();
-  state_->require_free_target();
-  fs::path old;
-  if (fs::exists(state_->target) && !fs::is_empty(state_->target)) {
-    old = state_->working;
-    old += ".old";
-    fs::rename(state_->target, old);
-  }
-  std::error_code error;
-  fs::rename(state_->working, state_->target, error);
-  if (error) {
-    if (!old.empty()) fs::rename(old, state_->target);
-    throw std::runtime_error(state_->target.string() + ": the finished dataset cannot be put here: " + error.message());
-  }
-  state_->working.clear();
-  if (!old.empty()) fs::remove_all(old);
+  state_->staged.commit();
 }
 
 }  // namespace credo::datasets

@@ -37,6 +37,8 @@ class DatasetWriter {
   void add_truth(const TimedPose& T_map_base);
   void add_true_vertical(const TrueVertical& vertical);
   void add_event(const Event& event);
+  /// Says that every event will be added, so that the dataset has an events.csv even if none comes.
+  void record_events();
 
   /// Where a file that belongs to the dataset but has no writer here (truth_map.yaml, SOURCE.txt) is to be put before
   /// finish().

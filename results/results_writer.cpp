@@ -11,7 +11,7 @@
 
 #include "datasets/map_server.hpp"
 #include "datasets/trajectory.hpp"
-#include "results/staged_folder.hpp"
+#include "results/results_folder.hpp"
 
 namespace credo::results {
 namespace {
@@ -61,9 +61,9 @@ void append_radial_lines(std::string& table, const perception::Scene& scene) {
 }  // namespace
 
 struct ResultsWriter::State {
-  State(const std::filesystem::path& target, bool replace) : folder(target, replace) {}
+  State(const std::filesystem::path& target, bool replace) : folder(stage_results(target, replace)) {}
 
-  StagedFolder folder;
+  datasets::StagedFolder folder;
   std::string trajectory;
   std::string localization{kLocalizationHeader};
   std::string hypotheses;

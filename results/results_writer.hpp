@@ -21,7 +21,7 @@ namespace credo::results {
 /// Writes what a run leaves behind (docs/dataset-format.md, "Results") into a folder that appears whole or not at all.
 class ResultsWriter {
  public:
-  /// \throws std::runtime_error as StagedFolder
+  /// \throws std::runtime_error as stage_results
   ResultsWriter(const std::filesystem::path& target, bool replace);
   ~ResultsWriter();
   ResultsWriter(ResultsWriter&&) noexcept;

@@ -36,8 +36,9 @@ THIRD_PARTY = {
     "CLI/": {"apps"},
     "nlohmann/": {"apps"},
     "zlib.h": {"datasets"},
-    "unistd.h": {"apps"},
-    "sys/": {"apps"},
+    "unistd.h": {"apps", "datasets"},
+    "fcntl.h": {"datasets"},
+    "sys/": {"apps", "datasets"},
 }
 
 LICENSE = ("SPDX-FileCopyrightText: The Credo Authors", "SPDX-License-Identifier: Apache-2.0")

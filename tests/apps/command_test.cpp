@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 namespace {
@@ -96,6 +97,39 @@ TEST_F(Command, WrongUsageEndsWithStatusTwo) {
   }
 }
 
+TEST_F(Command, NumbersOfOptionsAreFiniteAndWithinTheirBounds) {
+  write_fixture();
+  for (const char* option :
+       {"--t_offset nan", "--t_offset inf", "--t_offset 1e300", "--t_max_diff nan", "--t_max_diff -1", "-d nan", "-d inf",
+        "-d 1e300", "-d 0", "-d -1", "-t nan", "-t -1", "--n_to_align -2", "--n_to_align 1e99"}) {
+    const Answer answer = credo("evaluate rpe ref.tum est.tum " + std::string(option));
+    EXPECT_EQ(answer.status, 2) << option;
+    EXPECT_THAT(answer.error, AllOf(HasSubstr("expected a "), HasSubstr("found '"))) << option;
+  }
+  for (const char* arguments : {"simulate office --out out --seed -1", "demo --out out --seed -1", "demo --out out --seed 1.5",
+                                "demo --out out --seed 99999999999999999999", "run data --resolution nan",
+                                "map data --resolution inf", "run data --moments -1", "evaluate map a b --tolerance nan",
+                                "evaluate traj est.tum --t_max_diff nan"}) {
+    const Answer answer = credo(arguments);
+    EXPECT_EQ(answer.status, 2) << arguments;
+    EXPECT_THAT(answer.error, HasSubstr("expected a ")) << arguments;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  EXPECT_EQ(credo("evaluate ape ref.tum est.tum --fail_above rmse=nan").status, 1);
+  EXPECT_EQ(credo("evaluate ape ref.tum est.tum --t_offset +0.001").status, 0);
+}
+
+TEST_F(Command, UnknownWordsAreMetWithTheNearestKnownOne) {
+  struct Case { const char *arguments, *nearest; };
+  for (const Case& c : {Case{"evalute ape a b", "'evaluate'"}, {"evaluate scoer a b", "'score'"}, {"rum data", "'run'"},
+                        {"run data --pictuers x", "'--pictures'"}, {"simulate office --ot=x", "'--out'"},
+                        {"evaluate ape a b --t_maxdiff 1", "'--t_max_diff'"}}) {
+    const Answer answer = credo(c.arguments);
+    EXPECT_EQ(answer.status, 2) << c.arguments;
+    EXPECT_THAT(answer.error, AllOf(HasSubstr("did you mean"), HasSubstr(c.nearest))) << c.arguments;
+  }
+}
+
 TEST_F(Command, WrongInputEndsWithStatusOneAndSaysWhere) {
   write("bad.tum", "0 0 0 0 0 0 0 1\n1 0 0 zero 0 0 0 1\n");
   write("ref.tum", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");
@@ -109,6 +143,21 @@ TEST_F(Command, WrongInputEndsWithStatusOneAndSaysWhere) {
     EXPECT_EQ(answer.out, "") << c.arguments;
   }
   EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Command, APlaceThatCannotBeWrittenToIsNamed) {
+  write_small_world();
+  write("file", "x");
+  for (const char* arguments : {"simulate small.yaml --out file/data", "simulate small.yaml --out file", "demo --out file"}) {
+    const Answer answer = credo(arguments);
+    EXPECT_EQ(answer.status, 1) << arguments;
+    EXPECT_THAT(answer.error, AllOf(StartsWith("credo: error: "), HasSubstr("file"), Not(HasSubstr("filesystem error")))) << arguments;
+  }
+  EXPECT_EQ(read("file"), "x");
+  write_fixture();
+  const std::string line = "cd '" + folder_.string() + "' && '" CREDO_COMMAND "' evaluate ape ref.tum est.tum >/dev/full 2>.error";
+  EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 1);
+  EXPECT_THAT(read(".error"), HasSubstr("standard output"));
 }
 
 TEST_F(Command, ApePrintsEvosBlock) {
@@ -200,6 +249,58 @@ TEST_F(Command, ABadRowIsNamedAndNothingIsWritten) {
   EXPECT_THAT(answer.error, HasSubstr("odometry0/data.csv:"));
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   EXPECT_FALSE(fs::exists(folder_ / ".out.unfinished"));
+}
+
+TEST_F(Command, AnInterruptedCommandLeavesNothing) {
+  for (const char* signal : {"INT", "TERM"}) {
+    const std::string line = "cd '" + folder_.string() + "' && timeout --preserve-status -s " + signal +
+                             " 1 '" CREDO_COMMAND "' simulate office --out data 2>.error";
+    const int status = WEXITSTATUS(std::system(line.c_str()));
+    EXPECT_EQ(status, std::string(signal) == "INT" ? 130 : 143);
+    EXPECT_THAT(read(".error"), HasSubstr("interrupted"));
+    EXPECT_FALSE(fs::exists(folder_ / "data"));
+    EXPECT_FALSE(fs::exists(folder_ / ".data.unfinished"));
+  }
+}
+
+TEST_F(Command, PosesOfAnotherDriveAreNoMap) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  write("other.tum", "5 0 0 0 0 0 0 1\n6 1 0 0 0 0 0 1\n");
+  const Answer answer = credo("map data --poses other.tum --out out");
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_THAT(answer.error, AllOf(HasSubstr("other.tum from 5.0"), HasSubstr("same drive")));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  write("other.tum", "1600000000 0 0 0 0 0 0 1\n1600000003 1 0 0 0 0 0 1\n");
+  const Answer partly = credo("map data --poses other.tum --out out");
+  EXPECT_EQ(partly.status, 0) << partly.error;
+  EXPECT_THAT(partly.error, AllOf(HasSubstr("warning"), HasSubstr("have no pose near in time")));
+  EXPECT_EQ(credo("map data --sensors camera --out out2").status, 2);
+}
+
+TEST_F(Command, AResolutionTooFineForTheSensorsIsRefused) {
+  write_small_world();
+  write("small.yaml", std::regex_replace(read("small.yaml"), std::regex("opensimple,"), "opensimple, range_max: 5,"));
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  for (const char* command : {"run", "map"}) {
+    const Answer answer = credo(std::string(command) + " data --resolution 0.001 --out out");
+    EXPECT_EQ(answer.status, 1) << command;
+    EXPECT_THAT(answer.error, AllOf(HasSubstr("data: range finder"), HasSubstr("choose one between"))) << command;
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << command;
+  }
+}
+
+TEST_F(Command, PicturesInsideTheResultsStayAndAFailureLeavesNone) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  ASSERT_EQ(credo("map data --out out --pictures out/pictures").status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/pictures/map.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/map.yaml"));
+  ASSERT_EQ(credo("map data --out out2 --pictures elsewhere").status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "elsewhere/map.png"));
+  write("one.tum", "5 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(credo("map data --poses one.tum --out out3 --pictures nowhere").status, 1);
+  EXPECT_FALSE(fs::exists(folder_ / "nowhere"));
 }
 
 TEST_F(Command, WithoutAFloorPlanPosesAreEgoMotionAndThereIsAMap) {
