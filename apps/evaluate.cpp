@@ -21,10 +21,16 @@ Truth read_truth(const fs::path& path) {
   if (datasets::Dataset::is_dataset(path)) {
     datasets::Dataset dataset = datasets::Dataset::open(path);
     if (dataset.truth.empty()) throw std::runtime_error(path.string() + ": the dataset has no ground truth (groundtruth0)");
-    return {std::move(dataset.truth), std::move(dataset.events)};
+    Truth truth{std::move(dataset.truth), {}};
+    if (dataset.events_recorded) truth.events = std::move(dataset.events);
+    return truth;
+  }
+  const evaluation::Trajectory trajectory = evaluation::read_trajectory(path);
+  if (!trajectory.timed) {
+    throw std::runtime_error(path.string() + ": these poses have no times: nothing can be compared with them");
   }
   Truth truth;
-  for (const evaluation::StampedPose& pose : evaluation::read_trajectory(path).poses) {
+  for (const evaluation::StampedPose& pose : trajectory.poses) {
     truth.poses.push_back({pose.time, evaluation::flatten(pose)});
   }
   std::stable_sort(truth.poses.begin(), truth.poses.end(),

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ void add_evaluate_map(CLI::App& evaluate);           ///< map
 /// True poses with what is known to have happened.
 struct Truth {
   std::vector<datasets::TimedPose> poses;
-  std::vector<datasets::Event> events;  ///< of a dataset
+  std::optional<std::vector<datasets::Event>> events;  ///< of a dataset that records them
 };
 
 /// The ground truth of a dataset, or any trajectory file. \throws std::runtime_error if there is none

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "apps/evaluate.hpp"
@@ -36,7 +37,9 @@ void add_score(CLI::App& evaluate) {
   command->callback([o] {
     const Truth truth = read_truth(o->reference);
     const auto rows = read_rows(o->result);
-    const auto score = evaluation::score(rows, truth.poses, degraded_intervals(truth.events));
+    std::optional<std::vector<evaluation::Interval>> degraded;
+    if (truth.events) degraded = degraded_intervals(*truth.events);
+    const auto score = evaluation::score(rows, truth.poses, degraded);
     if (o->format.json()) print(to_json(score));
     else std::printf("%s", evaluation::to_text(score).c_str());
   });

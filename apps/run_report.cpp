@@ -84,7 +84,9 @@ std::optional<evaluation::LocalizationScore> score_of(const Outcome& outcome, co
     truth = truth || m.truth.has_value();
   }
   if (!truth) return {};
-  return evaluation::score(rows, dataset.truth, degraded_intervals(dataset.events));
+  std::optional<std::vector<evaluation::Interval>> degraded;
+  if (dataset.events_recorded) degraded = degraded_intervals(dataset.events);
+  return evaluation::score(rows, dataset.truth, degraded);
 }
 
 std::vector<evaluation::Interval> degraded_intervals(const std::vector<datasets::Event>& events) {
@@ -148,6 +150,7 @@ ordered_json to_json(const evaluation::LocalizationScore& s) {
           {"confidently_right", s.confidently_right},
           {"alert", s.alert},
           {"false_alert", s.false_alert},
+          {"degradation_known", s.degradation_known},
           {"available", optional(s.available)},
           {"misleading", optional(s.misleading)},
           {"nees_over_time", finite(s.anees)},

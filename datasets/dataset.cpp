@@ -219,6 +219,7 @@ void read_truth(const fs::path& folder, Dataset& dataset) {
     }
   }
   if (const fs::path file = folder / "events.csv"; fs::exists(file)) {
+    dataset.events_recorded = true;
     CsvTable table(file, {"timestamp [ns]", "event"});
     while (table.next_row()) {
       Event event{.time = table.time(), .name = {}};

@@ -83,6 +83,7 @@ struct Dataset {
   std::vector<TimedPose> truth;  ///< T_map_base
   std::vector<TrueVertical> true_verticals;
   std::vector<Event> events;
+  bool events_recorded = false;                    ///< there is an events.csv: what it does not tell did not happen
   std::optional<std::filesystem::path> truth_map;  ///< truth_map.yaml (map_server), where it is there
   // What a person should know about the reading of it.
   std::vector<SensorLog> log;

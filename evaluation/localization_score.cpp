@@ -142,7 +142,7 @@ std::optional<geometry::Pose2> truth_at(std::span<const datasets::TimedPose> tru
 }
 
 LocalizationScore score(std::span<const LocalizationRow> rows, std::span<const datasets::TimedPose> truth,
-                        std::span<const Interval> degraded, const ScoreParams& params) {
+                        const std::optional<std::vector<Interval>>& degraded, const ScoreParams& params) {
   const std::vector<Sample> samples = with_truth(rows, truth, params);
   if (samples.empty()) {
     throw std::runtime_error("no acquisition has a ground truth at its time: do the result and the reference belong together?");
@@ -165,8 +165,9 @@ LocalizationScore score(std::span<const LocalizationRow> rows, std::span<const d
   result.alert = share(samples, [&](const Sample& s) { return status(s) != Status::kLocalized; });
   result.false_alert = share(samples, [&](const Sample& s) {
     return status(s) != Status::kLocalized && s.position_m < params.lost_above_m &&
-           s.heading_rad < geometry::to_radians(params.lost_above_deg) && !within(degraded, s.row->localization.time);
+           s.heading_rad < geometry::to_radians(params.lost_above_deg) && !(degraded && within(*degraded, s.row->localization.time));
   });
+  result.degradation_known = degraded.has_value();
   add_protection(result, samples, params);
   for (const Sample& s : samples) {
     result.anees += nees(s.row->localization.estimate, s.truth) / static_cast<double>(samples.size());
@@ -226,7 +227,8 @@ std::string to_text(const LocalizationScore& s, const ScoreParams& p) {
   text += row_of("confidently right", percent(s.confidently_right), "the same words, and error within both");
   text += row_of("lost", percent(s.lost), "error > " + lost);
   text += row_of("alert", percent(s.alert), "status other than localized");
-  text += row_of("false alert", percent(s.false_alert), "an alert with error below both limits of lost, no sensor degraded");
+  text += row_of("false alert", percent(s.false_alert), std::string("an alert with error below both limits of lost, ") +
+                 (s.degradation_known ? "no sensor degraded" : "or less: no events.csv says when sensors were degraded"));
   text += row_of("available", percent(s.available), "localized and protection levels within " +
                  limits(p.available_level_m, p.available_level_deg, " and ") + (s.available ? "" : " (no integrity monitor)"));
   text += row_of("misleading", percent(s.misleading), "available, yet the error is above the protection level");

@@ -46,6 +46,7 @@ struct LocalizationScore {
   double confidently_right = 0.0;
   double alert = 0.0;
   double false_alert = 0.0;
+  bool degradation_known = false;  ///< else `false_alert` is an upper bound: a sensor may have been degraded at any time
   std::optional<double> available = {};   ///< nothing without protection levels
   std::optional<double> misleading = {};
   double anees = 0.0;          ///< over time, of this one run: correlated, so no verdict
@@ -59,10 +60,11 @@ struct LocalizationScore {
 [[nodiscard]] std::optional<geometry::Pose2> truth_at(std::span<const datasets::TimedPose> truth, sensors::Timestamp time,
                                                       const ScoreParams& params = {});
 
+/// \param degraded  when sensors were degraded, all such times; nothing where nobody recorded them
 /// \throws std::runtime_error if no row has a truth
 [[nodiscard]] LocalizationScore score(std::span<const results::LocalizationRow> rows,
-                                      std::span<const datasets::TimedPose> truth, std::span<const Interval> degraded = {},
-                                      const ScoreParams& params = {});
+                                      std::span<const datasets::TimedPose> truth,
+                                      const std::optional<std::vector<Interval>>& degraded = {}, const ScoreParams& params = {});
 
 /// Probability that a good one has the higher value than a bad one; equal values count half (Mann and Whitney).
 /// \returns nothing if there are no good or no bad ones

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <optional>
 
 namespace credo::evaluation {
 namespace {
@@ -34,7 +35,8 @@ std::vector<datasets::TimedPose> truth(int count) {
   return result;
 }
 
-LocalizationScore score_of(const std::vector<LocalizationRow>& rows, std::span<const Interval> degraded = {}) {
+LocalizationScore score_of(const std::vector<LocalizationRow>& rows,
+                           const std::optional<std::vector<Interval>>& degraded = {}) {
   return score(rows, truth(static_cast<int>(rows.size())), degraded);
 }
 
@@ -70,6 +72,15 @@ TEST(LocalizationScore, LostAlertAndFalseAlert) {
   EXPECT_NEAR(s.false_alert, 2.0 / 5, 1e-12);
   const std::vector<Interval> degraded{{2 * kSecond, 2 * kSecond + 1}};
   EXPECT_NEAR(score_of(rows, degraded).false_alert, 1.0 / 5, 1e-12);
+}
+
+TEST(LocalizationScore, FalseAlertsAreABoundWhereNobodyRecordedDegradedSensors) {
+  const auto rows = std::vector{row(0, 0.0, 0, 0.4, Status::kUncertain)};
+  EXPECT_FALSE(score_of(rows).degradation_known);
+  EXPECT_THAT(to_text(score_of(rows)), testing::HasSubstr("or less: no events.csv"));
+  const std::vector<Interval> none;
+  EXPECT_TRUE(score_of(rows, none).degradation_known);
+  EXPECT_THAT(to_text(score_of(rows, none)), testing::HasSubstr("no sensor degraded"));
 }
 
 TEST(LocalizationScore, AvailabilityNeedsAMonitor) {
