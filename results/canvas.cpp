@@ -85,6 +85,8 @@ void Canvas::line(Point a, Point b, Color color, double thickness) {
 void Canvas::dashed(Point a, Point b, Color color, double thickness, double dash) {
   const double length = (b - a).norm();
   if (!(length > 0.0)) return;
+  constexpr double kMostDashes = 1000.0;  // of a line that leads far out of the picture they are longer
+  dash = std::max(dash, 0.5 * length / kMostDashes);
   const Point step = (b - a) / length;
   for (double s = 0.0; s < length; s += 2.0 * dash) line(a + s * step, a + std::min(length, s + dash) * step, color, thickness);
 }

@@ -32,7 +32,12 @@ double farthest(const perception::Scene& scene) {
   return reach;
 }
 
-double ring_step(double reach) { return reach > 12.0 ? 5.0 : reach > 5.0 ? 2.0 : 1.0; }
+/// Metres between the rings; of at most 20 rings.
+double ring_step(double reach) {
+  double step = reach > 12.0 ? 5.0 : reach > 5.0 ? 2.0 : 1.0;
+  while (reach > 20.0 * step) step *= 10.0;
+  return step;
+}
 
 void draw_rings(Canvas& canvas, const GroundView& view, double reach) {
   const double step = ring_step(reach);

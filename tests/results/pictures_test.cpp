@@ -94,6 +94,13 @@ TEST(Pictures, ThePlanShowsWallsTrailAndRobot) {
   EXPECT_TRUE(has(picture, colors::kBlue));
 }
 
+/// A picture with a ring every 5 m would never be done.
+TEST(Pictures, AScanFromFarAwayIsDrawn) {
+  perception::Scene scene;
+  for (int i = 0; i < 10; ++i) scene.points.push_back({.position = {1e8, 1e8 + i}});
+  EXPECT_FALSE(scan_picture(scene, 0.25).empty());
+}
+
 TEST(Pictures, AScanOfNothingIsStillAPicture) { EXPECT_FALSE(scan_picture({}, 0.25).empty()); }
 
 TEST(Pictures, TheMapShowsOccupiedCellsUpright) {
