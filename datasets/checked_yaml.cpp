@@ -133,9 +133,9 @@ std::vector<double> CheckedValue::numbers(std::size_t size, const Bounds& bounds
   return values;
 }
 
-geometry::Pose2 CheckedValue::pose() const {
+geometry::Pose2 CheckedValue::pose(const Bounds& lengths) const {
   const std::vector<CheckedValue> xyt = items(3);
-  return {xyt[0].number(kAnyLength), xyt[1].number(kAnyLength), geometry::wrap_angle(xyt[2].number(kAnyAngle))};
+  return {xyt[0].number(lengths), xyt[1].number(lengths), geometry::wrap_angle(xyt[2].number(kAnyAngle))};
 }
 
 CheckedMap CheckedValue::map(std::initializer_list<std::string_view> known_keys) const {

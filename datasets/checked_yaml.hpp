@@ -51,7 +51,7 @@ class CheckedValue {
   /// \param size  expected number of items; 0 = any
   [[nodiscard]] std::vector<CheckedValue> items(std::size_t size = 0) const;
   [[nodiscard]] std::vector<double> numbers(std::size_t size, const Bounds& bounds = {}) const;
-  [[nodiscard]] geometry::Pose2 pose() const;  ///< [x, y, theta]
+  [[nodiscard]] geometry::Pose2 pose(const Bounds& lengths = kAnyLength) const;  ///< [x, y, theta]
   [[nodiscard]] CheckedMap map(std::initializer_list<std::string_view> known_keys) const;
 
   [[nodiscard]] int line() const { return line_; }

@@ -17,6 +17,7 @@ constexpr int kLargestImage_px = 32'768;
 constexpr double kLongestTurn_s = 3600.0;
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
+constexpr Bounds kMounting{.low = -100.0, .high = 100.0};  // of a sensor on the robot [m]
 constexpr Bounds kPixels{.low = -1e6, .high = 1e6};
 constexpr Bounds kPositivePixels{.low = 0.0, .high = 1e6, .low_open = true};
 constexpr Bounds kDuration{.low = -kLongestTurn_s, .high = kLongestTurn_s};
@@ -45,7 +46,7 @@ sensors::CalibrationAccuracy accuracy_of(const CheckedValue& value) {
 CommonKeys common_of(const CheckedMap& keys, double default_height_m, std::string_view time_key,
                      const std::filesystem::path& file, Remarks& remarks) {
   CommonKeys common{.T_base_sensor = {}, .height_m = default_height_m, .accuracy = {}};
-  if (const auto pose = keys.optional("pose")) common.T_base_sensor = pose->pose();
+  if (const auto pose = keys.optional("pose")) common.T_base_sensor = pose->pose(kMounting);
   if (const auto rate = keys.optional("rate_hz")) (void)rate->number({.low = 0.0, .high = 1e6, .low_open = true});
   if (const auto height = keys.optional("height")) common.height_m = height->number({.low = -100.0, .high = 1e4});
   if (const auto accuracy = keys.optional("accuracy")) common.accuracy = accuracy_of(*accuracy);
@@ -233,7 +234,7 @@ sensors::SonarRing read_sonar_ring(const std::filesystem::path& file, Remarks& r
   if (common.T_base_sensor != geometry::Pose2{})
     remarks.push_back(file.string() + ": pose has no effect: the transducers are given in the robot base frame");
   const CheckedValue transducers = keys.required("transducers");
-  for (const CheckedValue& transducer : transducers.items()) ring.T_base_transducer.push_back(transducer.pose());
+  for (const CheckedValue& transducer : transducers.items()) ring.T_base_transducer.push_back(transducer.pose(kMounting));
   if (ring.T_base_transducer.empty()) transducers.fail("transducers: expected at least one [x, y, theta], found none");
   if (const auto times = keys.optional("firing_times"))
     ring.firing_times_s = times->numbers(ring.T_base_transducer.size(), kDuration);
