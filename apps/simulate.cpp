@@ -99,10 +99,8 @@ sim::Sink sink_into(datasets::DatasetWriter& writer, Progress& progress) {
               }};
 }
 
-}  // namespace
-
-void simulate_into(const sim::World& world, std::uint64_t seed, const fs::path& out, bool force) {
-  const sim::Simulation simulation = about("world " + world.name, [&] { return sim::Simulation(world, seed); });
+void simulate(const sim::World& world, std::uint64_t seed, const fs::path& out, bool force) {
+  const sim::Simulation simulation(world, seed);
   const Interruptible interruptible;
   datasets::DatasetWriter writer(out, header_of(simulation), {.overwrite = force});
   writer.record_events();
@@ -111,6 +109,12 @@ void simulate_into(const sim::World& world, std::uint64_t seed, const fs::path& 
   write_truth_map(simulation.truth_map(), writer.working_folder() / "truth_map.yaml");
   Interruptible::check();
   writer.finish();
+}
+
+}  // namespace
+
+void simulate_into(const sim::World& world, std::uint64_t seed, const fs::path& out, bool force) {
+  about("world " + world.name, [&] { simulate(world, seed, out, force); });
 }
 
 void add_simulate(CLI::App& app) {
