@@ -3,11 +3,12 @@
 
 #include "localization/localization_belief.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "geometry/principal_axes.hpp"
 
 namespace credo::localization {
 
@@ -31,8 +32,7 @@ evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& eviden
 
 void judge(Localization& localization, bool camera_seen, bool range_finder_seen, const StatusParams& params) {
   const Eigen::Matrix3d& P = localization.estimate.covariance;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> position(P.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
-  const double sigma = std::sqrt(position.eigenvalues()(1));
+  const double sigma = std::sqrt(geometry::principal_axes(P.topLeftCorner<2, 2>()).largest);
   const BinaryMass& belief = localization.belief;
   localization.reason.clear();
   const auto because = [&localization](const char* words) {

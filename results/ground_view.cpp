@@ -3,11 +3,11 @@
 
 #include "results/ground_view.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "geometry/principal_axes.hpp"
 #include "results/plot.hpp"
 
 namespace credo::results {
@@ -54,12 +54,15 @@ void GroundView::scale_bar(Canvas& canvas) const {
 
 std::vector<Eigen::Vector2d> ellipse(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance, double sigmas) {
   constexpr int kSteps = 72;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
-  const Eigen::Vector2d axes = sigmas * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const geometry::PrincipalAxes axes = geometry::principal_axes(covariance);
+  const double major = sigmas * std::sqrt(std::max(0.0, axes.largest));
+  const double minor = sigmas * std::sqrt(std::max(0.0, axes.smallest));
+  const double c = std::cos(axes.angle), s = std::sin(axes.angle);
   std::vector<Eigen::Vector2d> points;
   for (int i = 0; i <= kSteps; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kSteps;
-    points.push_back(centre + solver.eigenvectors() * Eigen::Vector2d(axes.x() * std::cos(angle), axes.y() * std::sin(angle)));
+    const double along = major * std::cos(angle), across = minor * std::sin(angle);
+    points.emplace_back(centre.x() + c * along - s * across, centre.y() + s * along + c * across);
   }
   return points;
 }

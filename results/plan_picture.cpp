@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
+#include "geometry/principal_axes.hpp"
 #include "results/ground_view.hpp"
 #include "results/pictures.hpp"
 #include "results/status_colors.hpp"
@@ -136,10 +136,10 @@ void draw_panel(Canvas& canvas, const Moment& moment, Point corner) {
   draw_belief_bar(canvas, l.belief, {corner.x(), y - 10.0}, width);
   y += 24.0;
   say("%d matched of %d seen, %d tracks", l.matched, l.detected, l.tracked);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(l.estimate.covariance.topLeftCorner<2, 2>().eval());
-  const Eigen::Vector2d sigma = axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  say("3 sigma: %.1f x %.1f cm, %.2f deg", 300.0 * sigma.y(), 300.0 * sigma.x(),
-      3.0 * geometry::to_degrees(std::sqrt(std::max(0.0, l.estimate.covariance(2, 2)))));
+  const auto axes = geometry::principal_axes(l.estimate.covariance.topLeftCorner<2, 2>());
+  const auto sigma = [](double variance) { return std::sqrt(std::max(0.0, variance)); };
+  say("3 sigma: %.1f x %.1f cm, %.2f deg", 300.0 * sigma(axes.largest), 300.0 * sigma(axes.smallest),
+      3.0 * geometry::to_degrees(sigma(l.estimate.covariance(2, 2))));
   if (moment.truth) {
     const geometry::Pose2& pose = l.estimate.pose;
     say("error: %.1f cm, %.2f deg", 100.0 * (moment.truth->translation() - pose.translation()).norm(),
