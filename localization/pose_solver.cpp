@@ -20,16 +20,30 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using geometry::Pose2;
 using State = PoseState;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Matrix32d = Eigen::Matrix<double, 3, 2>;
+
+/// Three of the state's unknowns each, independent beforehand: the pose, the scan's common errors, the camera's.
+constexpr int kBlocks = 3;
+using BlockMatrices = std::array<Matrix3d, kBlocks>;
 
 Pose2 pose_of(const State::Vector& x) { return {x(State::kX), x(State::kY), x(State::kTheta)}; }
 Vector3d vector_of(const Pose2& p) { return {p.x, p.y, p.theta}; }
 Vector2d turned(const Vector2d& v) { return {-v.y(), v.x()}; }
 
-/// A 2x2 symmetric matrix' lower Cholesky factor of its inverse W = L L^T, so that |L^T e|^2 = e^T W e.
-Matrix2d whitener(const Matrix2d& covariance) {
-  const Matrix2d information = covariance.inverse();
-  return information.llt().matrixL();
+/// U, upper triangular, with U^T U the inverse of a covariance, so that |U e|^2 = e^T covariance^-1 e. Cholesky's
+/// decomposition in plain numbers: Eigen's takes seconds to compile for each size.
+template <int kRows>
+Eigen::Matrix<double, kRows, kRows> whitener(const Eigen::Matrix<double, kRows, kRows>& covariance) {
+  const Eigen::Matrix<double, kRows, kRows> information = covariance.inverse();
+  Eigen::Matrix<double, kRows, kRows> U = Eigen::Matrix<double, kRows, kRows>::Zero();
+  for (int i = 0; i < kRows; ++i) {
+    for (int j = i; j < kRows; ++j) {
+      double rest = information(i, j);
+      for (int k = 0; k < i; ++k) rest -= U(k, i) * U(k, j);
+      U(i, j) = i == j ? std::sqrt(rest) : rest / U(i, i);
+    }
+  }
+  return U;
 }
 
 /// The covariances of an observation's residual at a pose; a bearing's second row is a unit, so that it inverts.
@@ -58,27 +72,30 @@ ResidualCovariance residual_covariance(const Observation& o, const Pose2& pose) 
   return {};
 }
 
-/// Errors that all readings of an instrument share: fresh in each acquisition (the scan was carried over a motion), or
-/// always the same (mounting, the mirror's centre).
-struct CommonErrors {
-  Matrix6d noise = Matrix6d::Zero();
-  Matrix6d repeated = Matrix6d::Zero();
-};
-
 /// An instrument that is not there has an error that is known to be nearly nothing, so that the covariance inverts.
 constexpr double kNearlyNothing = 1e-10;
 
+/// Errors that all readings of an instrument share: fresh in each acquisition (the scan was carried over a motion), or
+/// always the same (mounting, the mirror's centre).
+struct CommonErrors {
+  struct Covariances {
+    Matrix3d noise = kNearlyNothing * Matrix3d::Identity();
+    Matrix3d repeated = Matrix3d::Zero();
+  };
+  Covariances scan;    ///< x, y, theta
+  Covariances camera;  ///< yaw, first harmonic
+};
+
 CommonErrors common_errors_of(const sensors::Rig& rig) {
   CommonErrors common;
-  common.noise.diagonal().setConstant(kNearlyNothing);
   if (!rig.range_finders.empty()) {
     const sensors::CalibrationAccuracy& a = rig.range_finders.front().accuracy;
-    common.repeated.diagonal().head<3>() << a.x_m * a.x_m, a.y_m * a.y_m, a.theta_rad * a.theta_rad;
+    common.scan.repeated.diagonal() << a.x_m * a.x_m, a.y_m * a.y_m, a.theta_rad * a.theta_rad;
   }
   if (rig.camera) {
     const sensors::CalibrationAccuracy& a = rig.camera->accuracy;
     const double harmonic = rig.camera->horizon_radius_px > 0.0 ? a.center_px / rig.camera->horizon_radius_px : 0.0;
-    common.repeated.diagonal().tail<3>() << a.theta_rad * a.theta_rad, harmonic * harmonic, harmonic * harmonic;
+    common.camera.repeated.diagonal() << a.theta_rad * a.theta_rad, harmonic * harmonic, harmonic * harmonic;
   }
   return common;
 }
@@ -89,10 +106,9 @@ struct WhitenedResiduals {
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = State::kSize };
 
   State::Vector prior = State::Vector::Zero();
-  Matrix3d pose_whitener = Matrix3d::Identity();  ///< L^T with L L^T the information
-  Matrix6d common_whitener = Matrix6d::Identity();
+  BlockMatrices prior_whiteners;
   const std::vector<Observation>* observations = nullptr;
-  std::vector<Matrix2d> whiteners;  ///< L^T, square root of the robust weight included
+  std::vector<Matrix2d> whiteners;  ///< square root of the robust weight included
 
   [[nodiscard]] int NumResiduals() const { return State::kSize + 2 * static_cast<int>(observations->size()); }
 
@@ -101,14 +117,12 @@ struct WhitenedResiduals {
     Eigen::Map<Eigen::VectorXd> e(residuals, NumResiduals());
     State::Vector step = x - prior;
     step(State::kTheta) = geometry::wrap_angle(step(State::kTheta));
-    e.head<3>() = pose_whitener * step.head<3>();
-    e.segment<6>(3) = common_whitener * step.tail<6>();
+    for (int b = 0; b < kBlocks; ++b) e.segment<3>(3 * b) = prior_whiteners[b] * step.segment<3>(3 * b);
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, State::kSize>> J(jacobian, jacobian ? NumResiduals() : 0,
                                                                       State::kSize);
     if (jacobian) {
       J.topRows<State::kSize>().setZero();
-      J.topLeftCorner<3, 3>() = pose_whitener;
-      J.block<6, 6>(3, 3) = common_whitener;
+      for (int b = 0; b < kBlocks; ++b) J.block<3, 3>(3 * b, 3 * b) = prior_whiteners[b];
     }
     for (std::size_t k = 0; k < observations->size(); ++k) {
       Vector2d raw;
@@ -139,15 +153,16 @@ struct Prior {
 Matrix2d intersected(const Linearised& l, double omega) {
   return (l.covariance.noise + l.covariance.plan / (1.0 - omega)) / l.weight;
 }
-Matrix3d intersected(const SplitPose& prior, double omega) { return prior.independent + prior.correlated / omega; }
-Matrix6d intersected(const CommonErrors& common, double omega) {
-  return common.noise + common.repeated / (1.0 - omega);
+BlockMatrices intersected(const Prior& prior, double omega) {
+  const auto& [scan, camera] = prior.common;
+  return {prior.pose.independent + prior.pose.correlated / omega, scan.noise + scan.repeated / (1.0 - omega),
+          camera.noise + camera.repeated / (1.0 - omega)};
 }
 
 State::Matrix information(const Prior& prior, const std::vector<Linearised>& linearised, double omega) {
   State::Matrix sum = State::Matrix::Zero();
-  sum.topLeftCorner<3, 3>() = intersected(prior.pose, omega).inverse();
-  sum.bottomRightCorner<6, 6>() = intersected(prior.common, omega).inverse();
+  const BlockMatrices blocks = intersected(prior, omega);
+  for (int b = 0; b < kBlocks; ++b) sum.block<3, 3>(3 * b, 3 * b) = blocks[b].inverse();
   for (const Linearised& l : linearised) {
     const State::Jacobian weighted = intersected(l, omega).inverse() * l.by_state;
     sum.noalias() += l.by_state.transpose() * weighted;
@@ -155,11 +170,18 @@ State::Matrix information(const Prior& prior, const std::vector<Linearised>& lin
   return sum;
 }
 
-/// The pose's covariance, whatever the common errors are.
-Matrix3d pose_covariance(const State::Matrix& information) {
-  const Matrix6d common = information.bottomRightCorner<6, 6>();
-  const Eigen::Matrix<double, 6, 3> mixed = information.bottomLeftCorner<6, 3>();
-  return (information.topLeftCorner<3, 3>() - mixed.transpose() * common.llt().solve(mixed)).inverse();
+/// Covariances of the pose with each block of the state: the first three rows of the information's inverse. One
+/// decomposition and one right-hand side at a time, as TinySolver does it: Eigen's general inverse takes long to
+/// compile.
+BlockMatrices pose_covariances(const State::Matrix& information) {
+  const Eigen::LDLT<State::Matrix> decomposed(information);
+  BlockMatrices covariances;
+  for (int i = 0; i < 3; ++i) {
+    const State::Vector unit = State::Vector::Unit(i);
+    const State::Vector row = decomposed.solve(unit);
+    for (int b = 0; b < kBlocks; ++b) covariances[b].row(i) = row.segment<3>(3 * b).transpose();
+  }
+  return covariances;
 }
 
 /// The share that leaves the pose the smallest covariance (by its determinant).
@@ -167,7 +189,7 @@ double best_share(const Prior& prior, const std::vector<Linearised>& linearised)
   constexpr std::array kShares{0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98};
   double best = 0.5, smallest = std::numeric_limits<double>::infinity();
   for (const double omega : kShares) {
-    const double determinant = pose_covariance(information(prior, linearised, omega)).determinant();
+    const double determinant = pose_covariances(information(prior, linearised, omega))[0].determinant();
     if (determinant < smallest) {
       smallest = determinant;
       best = omega;
@@ -266,10 +288,10 @@ struct PoseSolver::State {
 };
 
 void PoseSolver::State::minimise(const Prior& prior, double omega, PoseState::Vector& x) {
-  residuals.pose_whitener = intersected(prior.pose, omega).inverse().llt().matrixU();
-  residuals.common_whitener = intersected(prior.common, omega).inverse().llt().matrixU();
+  const BlockMatrices blocks = intersected(prior, omega);
+  for (int b = 0; b < kBlocks; ++b) residuals.prior_whiteners[b] = whitener(blocks[b]);
   for (std::size_t k = 0; k < linearised.size(); ++k)
-    residuals.whiteners[k] = whitener(intersected(linearised[k], omega)).transpose();
+    residuals.whiteners[k] = whitener(intersected(linearised[k], omega));
   solver.Solve(residuals, &x);
   x(PoseState::kTheta) = geometry::wrap_angle(x(PoseState::kTheta));
 }
@@ -328,16 +350,20 @@ double PoseSolver::State::bounded_cost(const Prior& prior, const PoseState::Vect
 }
 
 void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState::Vector& x) {
-  const PoseState::Matrix all = information(prior, linearised, omega).inverse();
-  const Eigen::Matrix<double, 3, PoseState::kSize> of_pose = all.topRows<3>();
-  const Matrix3d keep = of_pose.leftCols<3>() * intersected(prior.pose, omega).inverse();
-  const Eigen::Matrix<double, 3, 6> by_common = of_pose.rightCols<6>() * intersected(prior.common, omega).inverse();
-  Matrix3d independent =
-      keep * prior.pose.independent * keep.transpose() + by_common * prior.common.noise * by_common.transpose();
+  const BlockMatrices of_pose = pose_covariances(information(prior, linearised, omega));
+  const BlockMatrices blocks = intersected(prior, omega);
+  const BlockMatrices fresh{prior.pose.independent, prior.common.scan.noise, prior.common.camera.noise};
+  Matrix3d independent = Matrix3d::Zero();
+  for (int b = 0; b < kBlocks; ++b) {
+    const Matrix3d gain = of_pose[b] * blocks[b].inverse();
+    independent += gain * fresh[b] * gain.transpose();
+  }
   const std::vector<Observation>& observations = *residuals.observations;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     const Linearised& l = linearised[k];
-    const Eigen::Matrix<double, 3, 2> gain = of_pose * l.by_state.transpose() * intersected(l, omega).inverse();
+    Matrix32d by_residual = Matrix32d::Zero();
+    for (int b = 0; b < kBlocks; ++b) by_residual += of_pose[b] * l.by_state.middleCols<3>(3 * b).transpose();
+    const Matrix32d gain = by_residual * intersected(l, omega).inverse();
     independent += gain * (l.covariance.noise / l.weight) * gain.transpose();
     Vector2d residual;
     evaluate(observations[k], x, residual, nullptr);
@@ -345,7 +371,7 @@ void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState
     solution.mahalanobis_squared.push_back(squared);
     solution.outlier.push_back(squared > chi_square_gate(observations[k].dimension(), params.outlier_probability));
   }
-  const Matrix3d covariance = of_pose.leftCols<3>();
+  const Matrix3d& covariance = of_pose[0];
   solution.pose = {pose_of(x), 0.5 * (independent + independent.transpose()), Matrix3d::Zero()};
   solution.pose.correlated = 0.5 * (covariance + covariance.transpose()) - solution.pose.independent;
   solution.common_errors = x.tail<6>();
@@ -374,7 +400,7 @@ const PoseSolution& PoseSolver::solve(const SplitPose& prior_pose, const std::ve
     return s.solution;
   }
   Prior prior{prior_pose, s.common};
-  prior.common.noise.topLeftCorner<3, 3>() += carry_covariance;
+  prior.common.scan.noise += carry_covariance;
   PoseState::Vector x = PoseState::Vector::Zero();
   x.head<3>() = vector_of(prior_pose.pose);
   s.residuals.prior = x;
