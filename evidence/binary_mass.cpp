@@ -10,7 +10,6 @@
 namespace credo::evidence {
 namespace {
 
-constexpr double kMassTolerance = 1e-9;
 constexpr double kRescaleBelow = 0x1p-300;
 constexpr double kRescale = 0x1p600;
 

@@ -10,6 +10,8 @@
 
 namespace credo::evidence {
 
+inline constexpr double kMassTolerance = 1e-9;  ///< by which masses that are given may sum to more than 1
+
 /// A mass function on the two-element frame {YES, NO}: the belief that the robot carries about one assertion.
 /// yes + no + unknown = 1; `unknown` is the mass of the whole frame (ignorance).
 struct BinaryMass {

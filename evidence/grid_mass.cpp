@@ -9,10 +9,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "evidence/binary_mass.hpp"
+
 namespace credo::evidence {
 namespace {
-
-constexpr double kMassTolerance = 1e-9;
 
 // An element as the set of its Venn regions. Intersection is AND, union is OR, DSm cardinality the number of bits.
 constexpr unsigned kOverlap = 1, kOnlyEmpty = 2, kOnlyOccupied = 4;

@@ -8,6 +8,8 @@
 
 namespace credo::geometry {
 
+inline constexpr double kTurn = 2.0 * std::numbers::pi;  ///< a full one [rad]
+
 /// The angle in (-pi, pi] that is equal to `angle` modulo 2 pi. [rad]
 [[nodiscard]] inline double wrap_angle(double angle) {
   constexpr double kPi = std::numbers::pi;

@@ -10,6 +10,11 @@
 
 namespace credo::geometry {
 
+/// The sine of the angle from a to b times their lengths: positive where b lies counter-clockwise of a.
+[[nodiscard]] inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 /// A straight piece between two points. [m]
 struct Segment {
   Eigen::Vector2d a = Eigen::Vector2d::Zero();
@@ -42,6 +47,11 @@ struct LineEstimate {
 
   [[nodiscard]] Eigen::Vector2d direction() const { return {std::cos(angle), std::sin(angle)}; }
   [[nodiscard]] Eigen::Vector2d normal() const { return {-std::sin(angle), std::cos(angle)}; }
+  /// The point of the line that is nearest to `point`.
+  [[nodiscard]] Eigen::Vector2d foot_of(const Eigen::Vector2d& point) const {
+    const Eigen::Vector2d along = direction();
+    return centroid + along.dot(point - centroid) * along;
+  }
 };
 
 std::ostream& operator<<(std::ostream& out, const Segment& segment);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mapping/resolution_fit.hpp"
+#include "geometry/segment.hpp"
 
 namespace credo::mapping {
 namespace {
@@ -25,8 +26,6 @@ int hit_class(double reliability) {
   const int level = level_of(reliability);
   return level > 0 ? kLevels + level - 1 : -1;
 }
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 Eigen::Vector2d turned(const Eigen::Vector2d& v, double c, double s) { return {c * v.x() - s * v.y(), s * v.x() + c * v.y()}; }
 
@@ -152,10 +151,10 @@ void ScanPainter::join() {
       const Eigen::Vector2d along = next.range_m * next.direction - beam.range_m * beam.direction +
                                     (next.origin - beam.origin) * resolution;
       const double length = along.norm();
-      const double sine = std::abs(cross(beam.direction, along));
+      const double sine = std::abs(geometry::cross(beam.direction, along));
       if (length > 0.0 && sine >= min_sine * length) {
         sine_after = sine / length;
-        sine_of_next = std::max(min_sine, std::abs(cross(next.direction, along)) / length);
+        sine_of_next = std::max(min_sine, std::abs(geometry::cross(next.direction, along)) / length);
       }
     }
     beam.joined = sine_after > 0.0;

@@ -8,13 +8,10 @@
 #include <limits>
 
 #include "geometry/angles.hpp"
+#include "geometry/segment.hpp"
 
 namespace credo::perception {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double azimuth_of(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
@@ -71,10 +68,10 @@ Passage pass(const RadialLine& line, const Eigen::Vector2d& origin, double min_s
              std::span<const RangeSegment> segments) {
   const Eigen::Vector2d ray(std::cos(line.azimuth), std::sin(line.azimuth));
   Passage nearest;
-  double least = kNever;
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const geometry::Segment& extent = segments[s].extent;
-    const double side_a = cross(ray, extent.a - origin), side_b = cross(ray, extent.b - origin);
+    const double side_a = geometry::cross(ray, extent.a - origin), side_b = geometry::cross(ray, extent.b - origin);
     if (side_a >= 0.0 || side_b <= 0.0) continue;  // a lies clockwise of the bearing, b counter-clockwise
     const Eigen::Vector2d position = extent.a + (side_a / (side_a - side_b)) * (extent.b - extent.a);
     const double range = ray.dot(position - origin);
@@ -90,7 +87,7 @@ int first_point_beyond(std::span<const sensors::ScanPoint> points, const RangeSe
                        const Eigen::Vector2d& origin, double azimuth) {
   const Eigen::Vector2d ray(std::cos(azimuth), std::sin(azimuth));
   int k = segment.first;
-  while (k <= segment.last && cross(ray, points[static_cast<std::size_t>(k)].position - origin) <= 0.0) ++k;
+  while (k <= segment.last && geometry::cross(ray, points[static_cast<std::size_t>(k)].position - origin) <= 0.0) ++k;
   return k;
 }
 

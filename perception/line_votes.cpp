@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "geometry/angles.hpp"
 
 namespace credo::perception {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using geometry::kTurn;
 
 }  // namespace
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "perception/tukey_weight.hpp"
+
 namespace credo::perception {
 namespace {
 
@@ -16,12 +18,6 @@ struct Normal {  // equations of the two unknowns azimuth and slope
 
 double residual(const RadialPoint& point, const RadialFit& fit) {
   return (point.azimuth - fit.azimuth - fit.slope * point.lever) / point.sigma;
-}
-
-double tukey_weight(double z, double limit) {
-  if (std::abs(z) >= limit) return 0.0;
-  const double rest = 1.0 - (z / limit) * (z / limit);
-  return rest * rest;
 }
 
 Normal accumulate(std::span<const RadialPoint> points, const RadialFit& fit, double limit) {

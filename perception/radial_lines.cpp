@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -16,7 +15,7 @@
 namespace credo::perception {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using geometry::kTurn;
 
 void check(const sensors::OmniCamera& camera) {
   if (!(camera.inner_radius_px > 0.0) || !(camera.outer_radius_px > camera.inner_radius_px)) {

@@ -9,17 +9,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "perception/tukey_weight.hpp"
+
 namespace credo::perception {
-namespace {
-
-double tukey_weight(double distance, double limit) {
-  if (std::abs(distance) >= limit) return 0.0;
-  const double rest = 1.0 - (distance / limit) * (distance / limit);
-  return rest * rest;
-}
-
-}  // namespace
-
 RimCalibration::RimCalibration(const sensors::OmniCamera& camera, const RimParams& params)
     : params_(params),
       calibration_sigma_px_(camera.accuracy.center_px),

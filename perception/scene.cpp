@@ -7,6 +7,11 @@
 
 namespace credo::perception {
 
+int polarity_of(const Primitive& primitive, const Scene& scene) {
+  const int line = primitive.radial_line;
+  return line >= 0 && line < static_cast<int>(scene.radial_lines.size()) ? scene.radial_lines[line].polarity : 0;
+}
+
 const char* to_string(PrimitiveType type) {
   switch (type) {
     case PrimitiveType::kCorner: return "corner";

@@ -115,6 +115,9 @@ struct Scene {
   double saturated_share = 0.0;  ///< of the annulus
 };
 
+/// The polarity of its radial line; 0 without one.
+[[nodiscard]] int polarity_of(const Primitive& primitive, const Scene& scene);
+
 [[nodiscard]] const char* to_string(PrimitiveType type);
 [[nodiscard]] const char* to_string(SegmentEnd end);
 std::ostream& operator<<(std::ostream& out, const Primitive& primitive);

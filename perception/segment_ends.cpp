@@ -15,12 +15,7 @@ namespace {
 using geometry::LineEstimate;
 using sensors::ScanPoint;
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
-Eigen::Vector2d foot(const LineEstimate& line, const Eigen::Vector2d& point) {
-  const Eigen::Vector2d along = line.direction();
-  return line.centroid + along.dot(point - line.centroid) * along;
-}
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// Variance of an end's place: the wall may end anywhere up to the next beam, and the last reading is noisy along the
 /// line.
@@ -66,7 +61,7 @@ Segmenter::Beside Segmenter::end_beside(std::span<const float> ranges_m, const P
   const double sine = line.normal().dot(other.ray);
   const double sine_last = line.normal().dot(last.ray);
   const double farthest = 2.0 * last.range_m;
-  const double growth = sine * sine_last > 0.0 ? sine_last / sine : kNever;
+  const double growth = sine * sine_last > 0.0 ? sine_last / sine : kUnbounded;
   const double expected = std::min(farthest, predicted_range(last, line) * growth);
   const double noise = std::sqrt(last.sigma_m * last.sigma_m + other.sigma_m * other.sigma_m);
   const double jump = (other.range_m - expected) / std::max(1e-6, noise);
@@ -86,7 +81,7 @@ void Segmenter::judge_ends(std::span<const float> ranges_m, const Points& points
                                                        end_variance(begin, t.fit.line, t.spacing_a));
     const bool neighbours = n > 1 && (i + 1 < n || turn_ > 0);
     const bool near = beams_between(end, begin) <= allowed_beams_ + params_.bridged_outliers;
-    if (!neighbours) s.gap_to_next_sigmas = s.gap_to_next_m = kNever;
+    if (!neighbours) s.gap_to_next_sigmas = s.gap_to_next_m = kUnbounded;
     if (neighbours && near && s.gap_to_next_sigmas <= params_.joined_sigmas) {
       s.end_b = t.end_a = SegmentEnd::kJoined;
       continue;
@@ -116,8 +111,8 @@ void Segmenter::place_ends(std::vector<RangeSegment>& segments) const {
     const auto corner = intersect(s.fit.line, t.fit.line, params_.corner_sine);
     const double reach = s.gap_to_next_m + s.spacing_b + t.spacing_a;
     const bool meets = corner && (corner->position - middle).squaredNorm() <= reach * reach;
-    const Eigen::Vector2d end_s = meets ? corner->position : foot(s.fit.line, middle);
-    const Eigen::Vector2d end_t = meets ? corner->position : foot(t.fit.line, middle);
+    const Eigen::Vector2d end_s = meets ? corner->position : s.fit.line.foot_of(middle);
+    const Eigen::Vector2d end_t = meets ? corner->position : t.fit.line.foot_of(middle);
     // Never so far that a segment turns round.
     if ((end_s - s.extent.a).dot(s.extent.b - s.extent.a) > 0.0) s.extent.b = end_s;
     if ((t.extent.b - end_t).dot(t.extent.b - t.extent.a) > 0.0) t.extent.a = end_t;

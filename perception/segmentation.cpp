@@ -25,11 +25,6 @@ double median_of_three(double a, double b, double c) { return std::max(std::min(
 /// must not pass into a neighbour because nothing is lost.
 double chi2_of_own_line(const LineFit& fit, int size) { return std::min(fit.chi2, 10.0 + 2.0 * size); }
 
-Eigen::Vector2d foot(const LineEstimate& line, const Eigen::Vector2d& point) {
-  const Eigen::Vector2d along = line.direction();
-  return line.centroid + along.dot(point - line.centroid) * along;
-}
-
 /// Distance along the line from one beam to the next.
 double spacing_at(const ScanPoint& point, const LineEstimate& line, double increment, double min_sine) {
   return predicted_range(point, line) * increment / std::max(min_sine, std::abs(line.normal().dot(point.ray)));
@@ -315,7 +310,7 @@ void Segmenter::keep_lines(const Points& points, std::vector<RangeSegment>& segm
     double sine = 0.0;
     for (int k = segment.first; k <= segment.last; ++k) sine += std::abs(line.normal().dot(points[k].ray));
     if (sine < params_.min_sine * (segment.last - segment.first + 1)) continue;
-    segment.extent = {foot(line, points[segment.first].position), foot(line, points[segment.last].position)};
+    segment.extent = {line.foot_of(points[segment.first].position), line.foot_of(points[segment.last].position)};
     if (segment.extent.length() < 1e-6) continue;
     segment.spacing_a = spacing_at(points[segment.first], line, increment_, params_.min_sine);
     segment.spacing_b = spacing_at(points[segment.last], line, increment_, params_.min_sine);

@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "geometry/angles.hpp"
 
 namespace credo::perception {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using geometry::kTurn;
 
 std::vector<double> inner_radii(const sensors::OmniCamera& camera, const StrutParams& params) {
   return evenly_spaced_radii(std::max(2.0, params.inner_from * camera.inner_radius_px),

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "geometry/segment.hpp"
 #include "sim/yaml_map.hpp"
 
 namespace credo::sim {
@@ -17,8 +18,6 @@ constexpr double kReach_m = 0.5;     // to the wall that a thing is put on
 constexpr double kThickest_m = 0.4;  // wall between two rooms
 constexpr double kRelief_m = 0.004;  // of frames and posters on a wall
 constexpr double kHandleHeight_m = 1.0;
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 std::string printed(const Eigen::Vector2d& p) {
   std::ostringstream out;
@@ -86,7 +85,7 @@ Builder::Spot Builder::nearest_wall(const Eigen::Vector2d& at) const {
     const Eigen::Vector2d foot = panel.a + s * along;
     if (const double distance = (at - foot).norm(); distance < least) {
       least = distance;
-      const double side = cross(along, at - foot) >= 0.0 ? 1.0 : -1.0;
+      const double side = geometry::cross(along, at - foot) >= 0.0 ? 1.0 : -1.0;
       spot = {index, foot, along, side * Eigen::Vector2d(-along.y(), along.x())};
     }
   }
@@ -100,8 +99,8 @@ std::vector<int> Builder::faces_of(const Spot& spot, double width_m) const {
   for (const int index : walls_) {
     const Panel& panel = world_->panels[static_cast<std::size_t>(index)];
     const Eigen::Vector2d along = (panel.b - panel.a).normalized();
-    if (std::abs(cross(along, spot.along)) > 0.02) continue;
-    if (std::abs(cross(along, spot.foot - panel.a)) > kThickest_m) continue;
+    if (std::abs(geometry::cross(along, spot.along)) > 0.02) continue;
+    if (std::abs(geometry::cross(along, spot.foot - panel.a)) > kThickest_m) continue;
     const double s = along.dot(spot.foot - panel.a);
     if (s - 0.5 * width_m > 0.0 && s + 0.5 * width_m < (panel.b - panel.a).norm()) faces.push_back(index);
   }

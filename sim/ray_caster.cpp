@@ -7,14 +7,14 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/segment.hpp"
+
 namespace credo::sim {
 namespace {
 
 constexpr double kCell_m = 0.5;
 constexpr double kSeam = 1e-9;
 constexpr double kTooClose_m = 1e-6;
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void RayCaster::fill_cells() {
            i <= std::min(width_ - 1, cell(most.x() - low_.x() + 1e-6)); ++i) {
         const Eigen::Vector2d centre = low_ + kCell_m * Eigen::Vector2d(i + 0.5, j + 0.5);
         const double reach = 0.5 * kCell_m * (std::abs(e.x()) + std::abs(e.y())) + 1e-6;
-        if (std::abs(cross(e, centre - panel.a)) <= reach)
+        if (std::abs(geometry::cross(e, centre - panel.a)) <= reach)
           cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i)].push_back(
               index);
       }
@@ -63,9 +63,9 @@ bool RayCaster::meets(int index, const Eigen::Vector2d& origin, const Eigen::Vec
                       double& cos_incidence) const {
   const Panel& panel = world_->panels[static_cast<std::size_t>(index)];
   const Eigen::Vector2d e = panel.b - panel.a, to_a = panel.a - origin;
-  const double determinant = cross(direction, e);
+  const double determinant = geometry::cross(direction, e);
   if (determinant == 0.0) return false;
-  const double t = cross(to_a, e) / determinant, s = cross(to_a, direction) / determinant;
+  const double t = geometry::cross(to_a, e) / determinant, s = geometry::cross(to_a, direction) / determinant;
   if (t <= kTooClose_m || t >= range || s < -kSeam || s > 1.0 + kSeam) return false;
   range = t;
   cos_incidence = std::abs(determinant) / e.norm();

@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "geometry/segment.hpp"
+
 namespace credo::sim {
 namespace {
 
@@ -19,9 +21,7 @@ constexpr double kEdgeStrength = 0.2;
 constexpr double kAbsorption_per_m = 0.15;
 constexpr double kMargin = 4.0;  // a wall at the largest range is this much louder than the threshold
 constexpr double kJoined_m = 1e-3;
-constexpr double kInf = std::numeric_limits<double>::infinity();
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+constexpr double kNoEcho_m = std::numeric_limits<double>::infinity();
 
 /// Echo amplitude of a wall on the axis: spreading and absorption, there and back.
 double amplitude(double range_m) { return std::exp(-2.0 * kAbsorption_per_m * range_m) / std::max(range_m, 0.1); }
@@ -53,7 +53,7 @@ void SonarSimulator::find_junctions() {
           if ((ends_p[a] - ends_q[b]).norm() > kJoined_m) continue;
           const Eigen::Vector2d along_p = (ends_p[1 - a] - ends_p[a]).normalized();
           const Eigen::Vector2d along_q = (ends_q[1 - b] - ends_q[b]).normalized();
-          if (std::abs(cross(along_p, along_q)) > 0.7) junctions_.push_back({ends_p[a], along_p, along_q});
+          if (std::abs(geometry::cross(along_p, along_q)) > 0.7) junctions_.push_back({ends_p[a], along_p, along_q});
         }
     }
 }
@@ -102,8 +102,9 @@ void SonarSimulator::listen_to_junctions(const geometry::Pose2& T_map_transducer
     if (std::abs(off_axis) > 0.5 * setup_->ring.beam_width_rad) continue;
     // Inside of the angle if the transducer is a positive combination of the two walls' directions.
     const Eigen::Vector2d back = T_map_transducer.translation() - junction.at;
-    const double twist = cross(junction.along_a, junction.along_b);
-    const bool inside = cross(back, junction.along_b) / twist > 0.0 && cross(junction.along_a, back) / twist > 0.0;
+    const double twist = geometry::cross(junction.along_a, junction.along_b);
+    const bool inside =
+        geometry::cross(back, junction.along_b) / twist > 0.0 && geometry::cross(junction.along_a, back) / twist > 0.0;
     if (!is_loud(range, off_axis, inside ? kCornerStrength : kEdgeStrength)) continue;
     const auto hit = caster_.cast(T_map_transducer.translation(), -back / range, range);
     if (hit && hit->range_m < range - 0.01) continue;
@@ -112,7 +113,7 @@ void SonarSimulator::listen_to_junctions(const geometry::Pose2& T_map_transducer
 }
 
 double SonarSimulator::first_echo(const geometry::Pose2& T_map_transducer) const {
-  double nearest = kInf;
+  double nearest = kNoEcho_m;
   listen_to_walls(T_map_transducer, nearest);
   listen_to_junctions(T_map_transducer, nearest);
   return nearest;
@@ -134,7 +135,7 @@ sensors::SonarSweep SonarSimulator::sweep(sensors::Timestamp time,
     if (crossed) range = ring.range_min_m + phantom * (std::min(echo, ring.range_max_m) - ring.range_min_m);
     // Nearer than the transducer can listen after its pulse: it still rings.
     if (range < ring.range_min_m) range = ring.range_min_m;
-    sweep.ranges_m.push_back(static_cast<float>(range > ring.range_max_m ? kInf : range));
+    sweep.ranges_m.push_back(static_cast<float>(range > ring.range_max_m ? kNoEcho_m : range));
   }
   return sweep;
 }

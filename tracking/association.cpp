@@ -28,11 +28,6 @@ void add_floors(PolarPoint& point, const AssociationParams& params) {
   point.covariance(1, 1) += inverse * inverse;
 }
 
-int polarity_of(const perception::Primitive& primitive, const perception::Scene& scene) {
-  const int line = primitive.radial_line;
-  return line >= 0 && line < static_cast<int>(scene.radial_lines.size()) ? scene.radial_lines[line].polarity : 0;
-}
-
 }  // namespace
 
 const std::vector<Outcome>& Associator::associate(std::span<const Expected> tracks, const perception::Scene& scene,

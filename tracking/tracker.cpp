@@ -65,11 +65,6 @@ bool blind_for(const Track& track, const perception::Scene& scene) {
                               [&](const perception::Primitive& seen) { return seen.bearing_only == by_camera; });
 }
 
-int polarity_of(const perception::Primitive& primitive, const perception::Scene& scene) {
-  const int line = primitive.radial_line;
-  return line >= 0 && line < static_cast<int>(scene.radial_lines.size()) ? scene.radial_lines[line].polarity : 0;
-}
-
 }  // namespace
 
 struct Tracker::State {
