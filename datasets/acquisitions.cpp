@@ -17,7 +17,7 @@ namespace {
 
 using sensors::Timestamp;
 constexpr Timestamp kEarliest = std::numeric_limits<Timestamp>::min();
-constexpr Timestamp kLatest = std::numeric_limits<Timestamp>::max();
+constexpr Timestamp kNever = std::numeric_limits<Timestamp>::max();
 
 template <typename Row>
 std::vector<Timestamp> times_of(const std::vector<Row>& rows) {
@@ -76,7 +76,7 @@ bool all_nan(const std::vector<float>& ranges) {
 
 /// A stretch of time that grows over what is put into it.
 struct Stretch {
-  Timestamp first = kLatest;
+  Timestamp first = kNever;
   Timestamp last = kEarliest;
 
   void cover(Timestamp time, double margin_s = 0.0) {
@@ -111,8 +111,8 @@ void append_row(const std::vector<sensors::OdometryReading>& rows, std::size_t i
   const sensors::OdometryReading& row = rows[index];
   const Timestamp from = sensors::from_seconds(stop_and_go_from_s);
   const bool has_previous = index > 0, has_next = index + 1 < rows.size();
-  const Timestamp before = has_previous ? row.time - rows[index - 1].time : kLatest;
-  const Timestamp after = has_next ? rows[index + 1].time - row.time : kLatest;
+  const Timestamp before = has_previous ? row.time - rows[index - 1].time : kNever;
+  const Timestamp after = has_next ? rows[index + 1].time - row.time : kNever;
   const bool at_a_stop = rows.size() > 1 && before > from && after > from;
   if (at_a_stop) path.push_back({row.time - (has_previous ? before / 4 : kRest), row.T_odom_base});
   path.push_back(row);
@@ -167,7 +167,7 @@ Acquisitions::Acquisitions(const Dataset& dataset, const AcquisitionParams& para
 
 sensors::Acquisition Acquisitions::rows_between(std::size_t index) const {
   const Timestamp previous = index == 0 ? kEarliest : times_[index - 1];
-  const Timestamp last = index == size() ? kLatest : times_[index];
+  const Timestamp last = index == size() ? kNever : times_[index];
   sensors::Acquisition acquisition;
   acquisition.scans = all_rows_within(dataset_->scans, previous, last);
   acquisition.sonar = all_rows_within(dataset_->sonar, previous, last);

@@ -89,7 +89,7 @@ std::string quoted_scalar(std::string_view text) {
   return scalar + '"';
 }
 
-std::string list_of(double x, double y, double theta) {
+std::string pose_list(double x, double y, double theta) {
   std::string text = "[";
   append_fixed(text, x, kPoseDecimals);
   append_fixed(text += ", ", y, kPoseDecimals);
@@ -105,9 +105,9 @@ std::string header_text(const DatasetHeader& header) {
   text += "}\n";
   if (header.initial_pose) {
     const auto& [pose, covariance] = *header.initial_pose;
-    text += "initial_pose: " + list_of(pose.x, pose.y, pose.theta) + "\n";
+    text += "initial_pose: " + pose_list(pose.x, pose.y, pose.theta) + "\n";
     text += "initial_pose_sigma: " +
-            list_of(std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1)), std::sqrt(covariance(2, 2))) + "\n";
+            pose_list(std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1)), std::sqrt(covariance(2, 2))) + "\n";
   }
   if (!header.acquisition_sensor.empty()) text += "acquisition_sensor: " + header.acquisition_sensor + "\n";
   return text;

@@ -12,7 +12,7 @@
 namespace credo::datasets {
 namespace {
 
-constexpr int kDecimals = 6;
+constexpr int kPlanDecimals = 6;
 
 void check_writable(const geometry::FloorPlan& plan) {
   if (plan.walls.empty()) throw std::invalid_argument("a floor plan needs at least one wall");
@@ -22,11 +22,11 @@ void check_writable(const geometry::FloorPlan& plan) {
   if (!finite) throw std::invalid_argument("a floor plan to be written holds a value that is not finite");
 }
 
-std::string list_of(std::initializer_list<double> values) {
+std::string plan_list(std::initializer_list<double> values) {
   std::string text = "[";
   for (const double value : values) {
     if (text.size() > 1) text += ", ";
-    append_fixed(text, value, kDecimals);
+    append_fixed(text, value, kPlanDecimals);
   }
   return text + "]";
 }
@@ -59,12 +59,12 @@ void write_floor_plan(const std::filesystem::path& file, const geometry::FloorPl
   check_writable(plan);
   std::string text = "format: credo-floor-plan/1\nwalls:\n";
   for (const geometry::Segment& wall : plan.walls)
-    text += "  - " + list_of({wall.a.x(), wall.a.y(), wall.b.x(), wall.b.y()}) + "\n";
+    text += "  - " + plan_list({wall.a.x(), wall.a.y(), wall.b.x(), wall.b.y()}) + "\n";
   if (!plan.verticals.empty()) text += "verticals:\n";
-  for (const Eigen::Vector2d& mark : plan.verticals) text += "  - " + list_of({mark.x(), mark.y()}) + "\n";
+  for (const Eigen::Vector2d& mark : plan.verticals) text += "  - " + plan_list({mark.x(), mark.y()}) + "\n";
   if (plan.uncertainty_m != 0.0) {
     text += "uncertainty: ";
-    append_fixed(text, plan.uncertainty_m, kDecimals);
+    append_fixed(text, plan.uncertainty_m, kPlanDecimals);
     text += "\n";
   }
   write_file_whole(file, text);

@@ -24,7 +24,7 @@ constexpr double kFreeThreshold = 0.196;
 constexpr char kFreeGrey = static_cast<char>(254);
 constexpr char kOccupiedGrey = static_cast<char>(0);
 constexpr char kUnknownGrey = static_cast<char>(205);
-constexpr int kDecimals = 9;
+constexpr int kMapDecimals = 9;
 
 enum class Mode { kTrinary, kScale, kRaw };
 
@@ -109,13 +109,13 @@ cv::Mat read_picture(const std::filesystem::path& file) {
 
 std::string yaml_of(const OccupancyMap& map, const std::string& image) {
   std::string text = "image: " + image + "\nmode: trinary\nresolution: ";
-  append_fixed(text, map.resolution_m, kDecimals);
+  append_fixed(text, map.resolution_m, kMapDecimals);
   text += "\norigin: [";
-  append_fixed(text, map.origin_x_m, kDecimals);
+  append_fixed(text, map.origin_x_m, kMapDecimals);
   text += ", ";
-  append_fixed(text, map.origin_y_m, kDecimals);
+  append_fixed(text, map.origin_y_m, kMapDecimals);
   text += ", ";
-  append_fixed(text, map.origin_yaw_rad, kDecimals);
+  append_fixed(text, map.origin_yaw_rad, kMapDecimals);
   return text + "]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 }
 

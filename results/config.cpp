@@ -102,7 +102,7 @@ void emit(std::string& out, std::string_view name, const T& value, std::size_t d
   }
 }
 
-std::string quoted(const std::string& text) {
+std::string yaml_quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -116,9 +116,9 @@ std::string quoted(const std::string& text) {
 std::string to_yaml(const RunConfig& config) {
   std::string out = "# Every parameter of this run, as used.\nformat: credo-results/1\n";
   out += "credo: " + config.version + "\n";
-  out += "dataset: " + quoted(config.dataset) + "\n";
+  out += "dataset: " + yaml_quoted(config.dataset) + "\n";
   out += "method: " + scalar(config.localizer.method) + "\n";
-  out += "map_poses: " + quoted(config.map_poses) + "\n";
+  out += "map_poses: " + yaml_quoted(config.map_poses) + "\n";
   const bool paper = config.localizer.method == perception::Method::kPaper;
   out += "belief_yes: >-\n  Mass on \"the localization is correct\", fused by ";
   out += paper ? "Dempster's rule" : "conflict to ignorance";
@@ -136,7 +136,7 @@ std::string to_yaml(const RunConfig& config) {
 std::string to_yaml(const mapping::TrajectoryMappingParams& params, const std::string& version, const std::string& source,
                     const std::string& poses) {
   std::string out = "# Every parameter of this map, as used.\nformat: credo-results/1\n";
-  out += "credo: " + version + "\nsource: " + quoted(source) + "\nmap_poses: " + quoted(poses) + "\n";
+  out += "credo: " + version + "\nsource: " + yaml_quoted(source) + "\nmap_poses: " + yaml_quoted(poses) + "\n";
   emit(out, "mapping", params, 0);
   return out;
 }

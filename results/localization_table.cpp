@@ -25,7 +25,7 @@ constexpr std::array kStatuses{Status::kInitializing, Status::kLocalized, Status
                                Status::kLost};
 
 /// A field in quotes where it must be (RFC 4180).
-std::string quoted(const std::string& text) {
+std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string result = "\"";
   for (const char c : text) {
@@ -158,9 +158,9 @@ std::string to_line(const LocalizationRow& row) {
   return fmt::format(
       "{},{:.6f},{:.6f},{:.9f},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{},{},"
       "{:.6f},{:.6f},{:.9f},{:.9f},{}\n",
-      l.time, pose.x, pose.y, pose.theta, c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), l.belief.yes, l.belief.no,
-      l.belief.unknown, l.conflict, localization::to_string(l.status), l.detected, l.matched, l.tracked, p.position_low_m,
-      p.position_high_m, p.heading_low_rad, p.heading_high_rad, quoted(l.reason));
+      l.time, pose.x, pose.y, pose.theta, c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), l.belief.yes,
+      l.belief.no, l.belief.unknown, l.conflict, localization::to_string(l.status), l.detected, l.matched, l.tracked,
+      p.position_low_m, p.position_high_m, p.heading_low_rad, p.heading_high_rad, csv_quoted(l.reason));
 }
 
 std::vector<LocalizationRow> read_localization(const std::filesystem::path& file) {

@@ -17,7 +17,7 @@ using grids::CellState;
 using Point = Canvas::Point;
 constexpr Color kUnknownCell{200, 203, 208}, kEmptyCell{255, 255, 255}, kOccupiedCell{28, 30, 36}, kContestedCell{214, 60, 120};
 
-Color color_of(CellState state) {
+Color cell_color(CellState state) {
   switch (state) {
     case CellState::kUnknown: return kUnknownCell;
     case CellState::kEmpty: return kEmptyCell;
@@ -99,7 +99,8 @@ cv::Mat map_picture(const grids::EvidentialGrid& grid, std::span<const geometry:
   const GroundView view(map.low, map.high, corner, opposite);
   const Point top_left = view.at({map.low.x(), map.high.y()}), bottom_right = view.at({map.high.x(), map.low.y()});
   canvas.text({16.0, 22.0}, "Evidential map", colors::kInk, 11.0, Anchor::kLeft, 1.25);
-  canvas.image(colored(grids::decisions(grid, map.box), map.box, [](CellState s) { return color_of(s); }), top_left, bottom_right);
+  canvas.image(colored(grids::decisions(grid, map.box), map.box, [](CellState s) { return cell_color(s); }), top_left,
+               bottom_right);
   std::vector<Point> trail;
   for (const geometry::Pose2& pose : way) trail.push_back(view.at(pose.translation()));
   canvas.polyline(trail, colors::kBlue, 1.4);

@@ -11,7 +11,7 @@
 namespace credo::sim {
 namespace {
 
-constexpr double kCell_m = 0.25;
+constexpr double kLightCell_m = 0.25;
 constexpr double kShelfBoard_m = 0.34;
 constexpr double kWindowReach_m = 1.5;
 constexpr double kWindowGain = 0.8;
@@ -48,21 +48,21 @@ LightMap::LightMap(const World& world) {
     high = high.cwiseMax(panel.a).cwiseMax(panel.b);
   }
   origin_ = low.cast<float>();
-  width_ = static_cast<int>((high.x() - low.x()) / kCell_m) + 2;
-  height_ = static_cast<int>((high.y() - low.y()) / kCell_m) + 2;
+  width_ = static_cast<int>((high.x() - low.x()) / kLightCell_m) + 2;
+  height_ = static_cast<int>((high.y() - low.y()) / kLightCell_m) + 2;
   values_.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   for (int row = 0; row < height_; ++row)
     for (int column = 0; column < width_; ++column) {
-      const double x = low.x() + column * kCell_m, y = low.y() + row * kCell_m;
+      const double x = low.x() + column * kLightCell_m, y = low.y() + row * kLightCell_m;
       values_.push_back(static_cast<float>(0.5 + lamp_light(world.lamps, x, y) + window_light(world, x, y)));
     }
 }
 
 float LightMap::at(float x, float y) const {
   const float u =
-      std::clamp((x - origin_.x()) * static_cast<float>(1.0 / kCell_m), 0.0F, static_cast<float>(width_ - 1));
+      std::clamp((x - origin_.x()) * static_cast<float>(1.0 / kLightCell_m), 0.0F, static_cast<float>(width_ - 1));
   const float v =
-      std::clamp((y - origin_.y()) * static_cast<float>(1.0 / kCell_m), 0.0F, static_cast<float>(height_ - 1));
+      std::clamp((y - origin_.y()) * static_cast<float>(1.0 / kLightCell_m), 0.0F, static_cast<float>(height_ - 1));
   const int i = std::min(static_cast<int>(u), width_ - 2), j = std::min(static_cast<int>(v), height_ - 2);
   const float fu = u - static_cast<float>(i), fv = v - static_cast<float>(j);
   const float* row = values_.data() + j * width_ + i;

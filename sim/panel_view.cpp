@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kBins = 1024;
 constexpr double kBinWidth = 2.0 * std::numbers::pi / kBins;
-constexpr float kSeam = 1e-4F;        // panels overlap by this share at their ends: no light through the seams [m]
-constexpr float kTooClose_m = 0.02F;  // a panel through the camera is not drawn
+constexpr float kOverlap = 1e-4F;    // panels overlap by this share at their ends: no light through the seams [m]
+constexpr float kNearest_m = 0.02F;  // a panel through the camera is not drawn
 constexpr float kDirectedLight = 0.35F;
 
 struct Directions {
@@ -146,9 +146,9 @@ SurfaceHit PanelView::trace(std::uint16_t bin, const float origin[3], const floa
     const float ax = p.ax - origin[0], ay = p.ay - origin[1];
     const float determinant = cross(direction[0], direction[1], p.ex, p.ey);
     const float t = cross(ax, ay, p.ex, p.ey) / determinant;
-    if (!(t * length > kTooClose_m) || t >= hit.t) continue;
+    if (!(t * length > kNearest_m) || t >= hit.t) continue;
     const float along = cross(ax, ay, direction[0], direction[1]) / determinant * p.length;
-    if (along < -kSeam || along > p.length + kSeam) continue;
+    if (along < -kOverlap || along > p.length + kOverlap) continue;
     const float height = z + t * direction[2];
     if (height < p.z0 || height > p.z1) continue;
     hit = {p.panel, t, std::clamp(along, 0.0F, p.length), height};

@@ -17,7 +17,7 @@ constexpr double kOneImage_px = 3.0;  // nearer together, the images of two half
 constexpr double kDimming = 0.004;    // light at which the noise doubles
 constexpr double kPulse_m = 0.3;      // nearer together, two echoes of a pulse are one
 constexpr double kBrokenShare = 0.004;
-constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kNoReturn_m = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
@@ -93,9 +93,9 @@ float RangeSimulator::reading(const Eigen::Vector2d& origin, double angle, Rando
     halves[i] = {hit->range_m,
                  0.5 * material->infrared * hit->cos_incidence / std::max(hit->range_m * hit->range_m, 1e-4)};
   }
-  if (material == nullptr) return kInf;
+  if (material == nullptr) return kNoReturn_m;
   const double light = halves[0].light + halves[1].light;
-  if (is_lost(light, *material, random)) return kInf;
+  if (is_lost(light, *material, random)) return kNoReturn_m;
   Spot spot = halves[0].light >= halves[1].light ? halves[0] : halves[1];
   if (const double k = finder.noise.k_per_m; k > 0.0) {
     // The centre of gravity of the spot's image, where its two halves overlap.
@@ -108,7 +108,7 @@ float RangeSimulator::reading(const Eigen::Vector2d& origin, double angle, Rando
   spot.light = light;
   const double range = measured(spot, random);
   if (range < finder.range_min_m) return kNan;
-  return range > finder.range_max_m ? kInf : static_cast<float>(range);
+  return range > finder.range_max_m ? kNoReturn_m : static_cast<float>(range);
 }
 
 }  // namespace credo::sim
