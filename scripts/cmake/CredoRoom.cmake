@@ -27,10 +27,6 @@ function(credo_add_room name)
   list(TRANSFORM room_USES PREPEND credo::)
   target_link_libraries(${target} ${scope} ${room_USES} ${room_PUBLIC})
 
-  if(CREDO_PCH AND sources AND NOT name STREQUAL evidence)
-    target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <string> <vector> <Eigen/Core>)
-  endif()
-
   install(TARGETS ${target} EXPORT credo-${name}-targets COMPONENT ${name}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/credo/${name}
