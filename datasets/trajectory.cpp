@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using sensors::Timestamp;
 
 constexpr Timestamp kNanoseconds = 1'000'000'000;
-constexpr int kPoseDecimals = 9;
+constexpr int kTumDecimals = 9;
 
 /// A row of a text file that holds values.
 struct Row {
@@ -243,7 +243,7 @@ void write_tum(std::ostream& out, std::span<const TimedPose> poses) {
     const double half = 0.5 * geometry::wrap_angle(row.pose.theta);
     for (const double value : {row.pose.x, row.pose.y, 0.0, 0.0, 0.0, std::sin(half), std::cos(half)}) {
       text += ' ';
-      append_fixed(text, value, kPoseDecimals);
+      append_fixed(text, value, kTumDecimals);
     }
     text += '\n';
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
