@@ -10,18 +10,9 @@
 #include <vector>
 
 #include "datasets/dataset.hpp"
+#include "datasets/spatial_trajectory.hpp"
 
 namespace credo::datasets {
-
-/// How a trajectory was written.
-enum class TrajectoryFormat {
-  kTum,        ///< timestamp tx ty tz qx qy qz qw; seconds
-  kKitti,      ///< 12 numbers, the first three rows of a transform; no time
-  kEuroc,      ///< csv: ns, position, quaternion with w first
-  kPoseTable,  ///< csv: ns, x, y, theta and perhaps more (groundtruth0/data.csv, localization.csv)
-  kDataset,    ///< a dataset folder: its groundtruth0
-  kResults,    ///< a folder of results: its trajectory.tum
-};
 
 struct Trajectory {
   TrajectoryFormat format = TrajectoryFormat::kTum;
@@ -29,12 +20,9 @@ struct Trajectory {
   std::vector<TimedPose> poses;  ///< by time, projected to the plane z = 0; theta is the heading of the x axis
 };
 
-[[nodiscard]] const char* to_string(TrajectoryFormat format);
-
-/// Reads a trajectory; the format is told by the content. KITTI rows are in the camera's frame (x right, y down, z
-/// forward), of which the plane is (z, -x), unless each of them is a motion in the plane z = 0, which is then kept.
-/// \throws FormatError, with file and line: an unknown format, a bad row, a time that decreases, a value that is not
-/// finite, a quaternion of no length, or no pose at all.
+/// read_spatial_trajectory() projected to the plane. KITTI rows are in the camera's frame (x right, y down, z forward),
+/// of which the plane is (z, -x), unless each of them is a motion in the plane z = 0, which is then kept.
+/// \throws FormatError as read_spatial_trajectory(), and for a time that decreases
 [[nodiscard]] Trajectory read_trajectory(const std::filesystem::path& path);
 
 /// Writes poses as TUM rows: seconds with 9 decimals from the integer nanoseconds, nothing lost; qx = qy = 0.

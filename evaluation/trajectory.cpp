@@ -3,22 +3,11 @@
 
 #include "evaluation/trajectory.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace credo::evaluation {
-
-StampedPose lift(sensors::Timestamp time, const geometry::Pose2& pose) {
-  StampedPose lifted{.time = time};
-  lifted.rotation.topLeftCorner<2, 2>() = pose.rotation();
-  lifted.position.head<2>() = pose.translation();
-  return lifted;
-}
-
-geometry::Pose2 flatten(const StampedPose& pose) {
-  return {pose.position.x(), pose.position.y(), std::atan2(pose.rotation(1, 0), pose.rotation(0, 0))};
-}
 
 StampedPose relative(const StampedPose& a, const StampedPose& b) {
   return {.time = b.time,
@@ -37,6 +26,11 @@ bool is_planar(const Trajectory& trajectory) {
   return std::all_of(trajectory.poses.begin(), trajectory.poses.end(), [](const StampedPose& pose) {
     return std::abs(pose.position.z()) <= kTolerance && std::abs(pose.rotation(2, 2) - 1.0) <= kTolerance;
   });
+}
+
+Trajectory read_trajectory(const std::filesystem::path& path) {
+  datasets::SpatialTrajectory read = datasets::read_spatial_trajectory(path);
+  return {.name = path.string(), .timed = read.has_times, .poses = std::move(read.poses)};
 }
 
 TrajectoryFacts facts(const Trajectory& trajectory) {

@@ -103,11 +103,11 @@ TEST(ReadTrajectory, TakesTheTruthOfADatasetAndTheTrajectoryOfResults) {
   const TemporaryFolder folder;
   write_small_dataset(folder / "small");
   const Trajectory truth = read_trajectory(folder / "small");
-  EXPECT_EQ(truth.format, TrajectoryFormat::kDataset);
+  EXPECT_EQ(truth.format, TrajectoryFormat::kPoseTable);
   EXPECT_EQ(truth.poses.size(), 40U);
   write_tum(folder / "trajectory.tum", truth.poses);
   const Trajectory results = read_trajectory(folder.path());
-  EXPECT_EQ(results.format, TrajectoryFormat::kResults);
+  EXPECT_EQ(results.format, TrajectoryFormat::kTum);
   EXPECT_EQ(results.poses[7].time, truth.poses[7].time);
   std::filesystem::remove_all(folder / "small/groundtruth0");
   EXPECT_THAT(complaint([&] { (void)read_trajectory(folder / "small"); }), HasSubstr("no groundtruth0"));
@@ -126,7 +126,7 @@ TEST(ReadTrajectory, NamesTheLineOfAMistake) {
               HasSubstr("poses:2: expected 8 columns, as in line 1, found 7"));
   EXPECT_THAT(said("1 0 nan 0 0 0 0 1\n"), AllOf(HasSubstr("poses:1: column 3"), HasSubstr("'nan'")));
   EXPECT_THAT(said("1 0 1e99 0 0 0 0 1\n"), HasSubstr("poses:1: column 3"));
-  EXPECT_THAT(said("1 0 0 0 0 0 0 0\n"), HasSubstr("no length"));
+  EXPECT_THAT(said("1 0 0 0 0 0 0 0\n"), HasSubstr("norm 1, found norm 0"));
   EXPECT_THAT(said("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), HasSubstr("poses:2: the time 1.000000000 s comes after 2.0"));
   EXPECT_THAT(said(std::string_view("\x7f\0ELF", 5)), HasSubstr("zero byte"));
   EXPECT_THAT(complaint([&] { (void)read_trajectory(folder / "nowhere"); }), HasSubstr("no such file"));
