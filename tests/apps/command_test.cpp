@@ -15,6 +15,8 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,12 +39,6 @@ std::string text_of(const fs::path& file) {
 
 class Command : public testing::Test {
  protected:
-  Command() : folder_(fs::path(testing::TempDir()) / ("command_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Command() override { fs::remove_all(folder_); }
-
   /// In the test's own folder.
   Answer credo(const std::string& arguments) const {
     const std::string line = "cd '" + folder_.string() + "' && '" CREDO_COMMAND "' " + arguments + " >.out 2>.error";
@@ -72,7 +68,8 @@ class Command : public testing::Test {
                         "  sonars:\n    - {preset: pioneer-16, rate: 5}\n  odometry: {rate: 10}\n");
   }
 
-  fs::path folder_;
+  credo::tests::TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST_F(Command, HelpStartsWithExamples) {

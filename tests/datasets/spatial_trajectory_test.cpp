@@ -7,9 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "tests/datasets/temporary_folder.hpp"
 
 namespace credo::datasets {
 namespace {
@@ -20,19 +23,8 @@ using testing::ThrowsMessage;
 
 class SpatialTrajectoryFiles : public testing::Test {
  protected:
-  SpatialTrajectoryFiles()
-      : folder_(fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~SpatialTrajectoryFiles() override { fs::remove_all(folder_); }
-
-  fs::path write(const fs::path& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  fs::path folder_;
+  fs::path write(const std::string& name, std::string_view text) const { return folder_.write(name, text); }
+  TemporaryFolder folder_;
 };
 
 TEST_F(SpatialTrajectoryFiles, TumKeepsEveryNanosecond) {
@@ -80,7 +72,7 @@ TEST_F(SpatialTrajectoryFiles, FoldersAreToldApartByWhatIsInThem) {
   EXPECT_NEAR(flatten(truth.poses[0]).theta, std::numbers::pi, 1e-9);
   EXPECT_EQ(run.poses[0].time, 20);
   EXPECT_NEAR(flatten(run.poses[0]).theta, 0.5, 1e-12);
-  EXPECT_THAT([&] { (void)read_spatial_trajectory(folder_); },
+  EXPECT_THAT([&] { (void)read_spatial_trajectory(folder_.path()); },
               ThrowsMessage<std::runtime_error>(HasSubstr("no trajectory")));
 }
 

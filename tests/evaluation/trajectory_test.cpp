@@ -5,21 +5,19 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
+#include "tests/support/temporary_folder.hpp"
 
 namespace credo::evaluation {
 namespace {
 
 TEST(Trajectory, IsReadUnderTheNameOfItsFile) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "named.tum";
-  std::ofstream(file) << "1.5 1 2 0 0 0 0 1\n2.5 1 2 3 0 0 0 1\n";
+  const tests::TemporaryFolder folder;
+  const auto file = folder.write("named.tum", "1.5 1 2 0 0 0 0 1\n2.5 1 2 3 0 0 0 1\n");
   const Trajectory t = read_trajectory(file);
   EXPECT_EQ(t.name, file.string());
   EXPECT_TRUE(t.timed);
   EXPECT_EQ(t.poses.at(1).time, 2'500'000'000);
   EXPECT_FALSE(is_planar(t));
-  std::filesystem::remove(file);
 }
 
 TEST(TrajectoryFacts, CountWhatIsWrong) {

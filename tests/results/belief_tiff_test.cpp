@@ -4,7 +4,6 @@
 #include "results/belief_tiff.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdint>
 #include <cstring>
@@ -15,22 +14,20 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace credo::results {
 namespace {
 
 class BeliefTiff : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   [[nodiscard]] std::string bytes() const {
     std::ifstream in(file_, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("credo-belief-" + std::to_string(getpid()) + "-" +
-                                                ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  tests::TemporaryFolder temporary_;
+  std::filesystem::path folder_ = temporary_.path();
   std::filesystem::path file_ = folder_ / "map_belief.tiff";
 };
 

@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace credo::results {
 namespace {
 
@@ -33,13 +35,12 @@ LocalizationRow example() {
 
 class Table : public testing::Test {
  protected:
-  Table() : file_(fs::path(testing::TempDir()) / (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv")) {}
-  ~Table() override { fs::remove(file_); }
   std::vector<LocalizationRow> read(const std::string& text) const {
     std::ofstream(file_) << text;
     return read_localization(file_);
   }
-  fs::path file_;
+  tests::TemporaryFolder folder_;
+  fs::path file_ = folder_ / "localization.csv";
   std::string header_{kLocalizationHeader};
 };
 

@@ -11,6 +11,7 @@
 
 #include "grids/readout.hpp"
 #include "results/results_writer.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace credo::results {
 namespace {
@@ -19,10 +20,6 @@ namespace fs = std::filesystem;
 
 class MapFolder : public testing::Test {
  protected:
-  MapFolder() : folder_(fs::path(testing::TempDir()) / ("map_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
-    fs::remove_all(folder_);
-  }
-  ~MapFolder() override { fs::remove_all(folder_); }
   void write(const grids::EvidentialGrid& grid, BeliefChannels channels) const {
     ResultsWriter writer(folder_, false);
     writer.add_map(grid, {}, channels);
@@ -39,7 +36,8 @@ class MapFolder : public testing::Test {
     grid.add({0, 0}, cell(0.5, 0.5, 0.1));
     return grid;
   }
-  fs::path folder_;
+  tests::TemporaryFolder temporary_;
+  fs::path folder_ = temporary_ / "run";
 };
 
 TEST_F(MapFolder, KeepsPlaceMassesAndDecisions) {

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace credo::results {
 namespace {
 
@@ -21,12 +23,6 @@ using testing::ThrowsMessage;
 
 class Results : public testing::Test {
  protected:
-  Results() : folder_(fs::path(testing::TempDir()) / ("results_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Results() override { fs::remove_all(folder_); }
-
   [[nodiscard]] fs::path target() const { return folder_ / "run"; }
   [[nodiscard]] std::string text(const char* name) const {
     std::ostringstream out;
@@ -45,7 +41,8 @@ class Results : public testing::Test {
     writer.finish();
   }
 
-  fs::path folder_;
+  tests::TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 localization::Localization pose(sensors::Timestamp time, double x) {

@@ -8,11 +8,11 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "geometry/segment.hpp"
 #include "sim/trajectory.hpp"
 #include "tests/sim/test_worlds.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace credo::sim {
 namespace {
@@ -104,18 +104,10 @@ sensors:
     - {preset: opensimple}
 )";
 
-/// A folder that no test running beside this one uses.
-fs::path own_folder() {
-  const fs::path folder = fs::path(testing::TempDir()) /
-                          ("credo_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-  fs::create_directories(folder);
-  return folder;
-}
-
 /// What loading this text complains about; empty if it does not.
 std::string complaint(const std::string& text) {
-  const fs::path file = own_folder() / "world.yaml";
-  std::ofstream(file) << text;
+  const tests::TemporaryFolder folder;
+  const fs::path file = folder.write("world.yaml", text);
   try {
     (void)load_world(file);
   } catch (const std::runtime_error& error) {
@@ -196,8 +188,8 @@ TEST(WorldFile, TheManualsExampleLoadsAndItsDefaultsAreTrue) {
     }
     if (inside) yaml += line + "\n";
   }
-  const fs::path file = own_folder() / "manual.yaml";
-  std::ofstream(file) << yaml;
+  const tests::TemporaryFolder folder;
+  const fs::path file = folder.write("manual.yaml", yaml);
   World world;
   ASSERT_NO_THROW(world = load_world(file));
   EXPECT_EQ(world.path.size(), 4U);
@@ -218,7 +210,8 @@ TEST(WorldFile, TheManualsExampleLoadsAndItsDefaultsAreTrue) {
 }
 
 TEST(WorldFile, AFolderIsNone) {
-  EXPECT_THAT([] { (void)load_world(own_folder()); },
+  const tests::TemporaryFolder folder;
+  EXPECT_THAT([&] { (void)load_world(folder.path()); },
               testing::ThrowsMessage<std::runtime_error>(HasSubstr("is a folder; expected a world file")));
 }
 
