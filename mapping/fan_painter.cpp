@@ -19,9 +19,6 @@ namespace {
 constexpr double kTableBins = 400.0;  // at most, over the range
 constexpr std::size_t kMostTableBytes = std::size_t{64} << 20;  // of the increments kept
 
-/// The first column, or row, whose centre is not below a coordinate.
-int first_centre(double coordinate) { return static_cast<int>(std::ceil(coordinate - 0.5)); }
-
 /// Narrows [low, high] to the x on the inner side of an edge through the apex: all (x, dy) with
 /// cross(edge, (x, dy)) * side >= 0.
 void clip(double edge_x, double edge_y, double side, double dy, double& low, double& high) {
@@ -104,7 +101,7 @@ void FanPainter::paint_rows(const Fan& fan, const Table& table, int begin, int e
   const float angle_bins = static_cast<float>(kAngleBins) / (widest * widest);
   const float shift = static_cast<float>(fan.shift_m / rho_bin_m_);
   const float last_rho = static_cast<float>(table.rows.size() - 1);
-  std::array<std::int32_t, grids::Tile::kSide> entry;
+  std::array<std::int32_t, grids::Tile::kSide> entry{};
   const evidence::FixedLogCommonality* const entries = table.rows.front().data();
 
   for (int row = begin; row < end; ++row) {

@@ -21,9 +21,6 @@ void add_to_channel(std::int32_t* channel, int count, std::int32_t increment) {
   for (int i = 0; i < count; ++i) channel[i] = std::max(channel[i], lowest) + increment;
 }
 
-/// The first row, or column, whose centre is not below a coordinate.
-std::int32_t first_centre(double coordinate) { return static_cast<std::int32_t>(std::ceil(coordinate - 0.5)); }
-
 }  // namespace
 
 /// How often the contours of each class wind around the place between two crossings.

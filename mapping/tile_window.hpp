@@ -4,11 +4,18 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "grids/evidential_grid.hpp"
 
 namespace credo::mapping {
+
+/// The first column, or row, whose centre is not below a coordinate in cells.
+[[nodiscard]] inline std::int32_t first_centre(double coordinate) {
+  return static_cast<std::int32_t>(std::ceil(coordinate - 0.5));
+}
 
 /// The tiles of a grid under a rectangle of cells, looked up once each and made when first written to.
 class TileWindow {
