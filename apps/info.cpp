@@ -130,7 +130,7 @@ std::string one_line(const ordered_json& value) {
   if (!value.is_object()) return value.dump();
   std::string text;
   for (const auto& [key, part] : value.items()) {
-    if (key == "name") text = one_line(part) + text;
+    if (key == "name") text.insert(0, one_line(part));
     else text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key, one_line(part));
   }
   return text;

@@ -34,7 +34,7 @@ class Interruptible {
 
  private:
   static constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
-  struct sigaction before_[3];
+  struct sigaction before_[3] = {};
 };
 
 }  // namespace credo::apps

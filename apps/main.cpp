@@ -30,6 +30,7 @@ class ExamplesFirst : public CLI::Formatter {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): only a lack of memory passes what is caught below
 int main(int argc, char** argv) {
   CLI::App app("Know where the robot is - and whether to believe it.", "credo");
   app.formatter(std::make_shared<ExamplesFirst>());

@@ -61,7 +61,7 @@ Outcome run_and_write(const datasets::Dataset& dataset, const RunOptions& option
                      options.picture_moments);
   }
   Progress progress("running " + dataset.header.name);
-  const Outcome outcome = run(dataset, params, [&](const Step& step) {
+  Outcome outcome = run(dataset, params, [&](const Step& step) {
     Interruptible::check();
     writer.add(step.scene, step.fix, step.localizer.tracks());
     if (pictures) pictures->draw(step);

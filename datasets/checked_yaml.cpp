@@ -62,9 +62,9 @@ int line_of(const YAML::Node& node) { return node.Mark().line + 1; }
 
 }  // namespace
 
-CheckedValue::CheckedValue(std::shared_ptr<const std::filesystem::path> file, YAML::Node node, std::string name,
+CheckedValue::CheckedValue(std::shared_ptr<const std::filesystem::path> file, const YAML::Node& node, std::string name,
                            int line)
-    : file_(std::move(file)), node_(std::move(node)), name_(std::move(name)), line_(line) {}
+    : file_(std::move(file)), node_(node), name_(std::move(name)), line_(line) {}
 
 void CheckedValue::fail(const std::string& message) const { throw FormatError(*file_, line_, message); }
 

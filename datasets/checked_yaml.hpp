@@ -41,7 +41,7 @@ class CheckedMap;
 /// A value of a YAML file that knows where it stands and what it is called. Every reader throws FormatError.
 class CheckedValue {
  public:
-  CheckedValue(std::shared_ptr<const std::filesystem::path> file, YAML::Node node, std::string name, int line);
+  CheckedValue(std::shared_ptr<const std::filesystem::path> file, const YAML::Node& node, std::string name, int line);
 
   [[nodiscard]] double number(const Bounds& bounds = {}) const;
   [[nodiscard]] int integer(int low, int high) const;

@@ -25,7 +25,7 @@ std::string read_unpacked(const std::filesystem::path& file, std::size_t limit) 
   const std::unique_ptr<gzFile_s, CloseGz> in(gzopen(file.c_str(), "rb"));
   if (!in) throw FormatError(file, 0, "cannot be read; check its permissions");
   std::string content;
-  std::array<char, 1 << 16> buffer;
+  std::array<char, 1 << 16> buffer{};
   while (content.size() < limit) {
     const int got = gzread(in.get(), buffer.data(), buffer.size());
     int code = Z_OK;

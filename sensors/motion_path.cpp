@@ -10,20 +10,19 @@
 
 namespace credo::sensors {
 
-MotionPath::MotionPath(std::vector<OdometryReading> rows) {
-  rows_.reserve(rows.size());
-  for (const OdometryReading& row : rows) {
+MotionPath::MotionPath(std::vector<OdometryReading> rows) : rows_(std::move(rows)) {
+  std::size_t kept = 0;
+  for (const OdometryReading& row : rows_) {
     const geometry::Pose2& p = row.T_odom_base;
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.theta))
       throw std::invalid_argument("the pose at " + std::to_string(row.time) + " ns is not finite");
-    if (!rows_.empty() && row.time < rows_.back().time)
+    if (kept > 0 && row.time < rows_[kept - 1].time)
       throw std::invalid_argument("the time " + std::to_string(row.time) + " ns comes after " +
-                                  std::to_string(rows_.back().time) + " ns: sort the rows by time");
-    if (!rows_.empty() && row.time == rows_.back().time)
-      rows_.back() = row;
-    else
-      rows_.push_back(row);
+                                  std::to_string(rows_[kept - 1].time) + " ns: sort the rows by time");
+    if (kept > 0 && row.time == rows_[kept - 1].time) --kept;
+    rows_[kept++] = row;
   }
+  rows_.resize(kept);
 }
 
 geometry::Pose2 MotionPath::pose_at(Timestamp time) const {

@@ -107,7 +107,7 @@ void PanelView::enter(int placed) {
 /// Bins in a row, each nearest first, without what lies behind a wall that covers the whole bin.
 void PanelView::sort_bins() {
   bin_start_.assign(kBins + 1, 0);
-  std::array<float, kBins> wall;
+  std::array<float, kBins> wall{};
   wall.fill(std::numeric_limits<float>::infinity());
   for (const Entry& entry : entries_)
     if (float& nearest = wall[static_cast<std::size_t>(entry.bin)]; entry.covers)

@@ -100,7 +100,7 @@ std::optional<RayHit> RayCaster::cast(const Eigen::Vector2d& origin, const Eigen
   double range = max_range_m;
   RayHit hit{max_range_m, -1, 1.0};
   while (enter * kCell_m < range && at[0] >= 0 && at[1] >= 0 && at[0] < width_ && at[1] < height_) {
-    const auto cell = static_cast<std::size_t>(at[1] * width_ + at[0]);
+    const int cell = at[1] * width_ + at[0];
     for (int i = cell_start_[cell]; i < cell_start_[cell + 1]; ++i) {
       const int panel = cell_panels_[static_cast<std::size_t>(i)];
       if (panel != ignore && meets(panel, origin, direction, range, hit.cos_incidence)) hit.panel = panel;

@@ -170,6 +170,7 @@ std::vector<geometry::Pose2> Simulation::Parts::exposures(double seconds) const 
   const int count =
       std::clamp(static_cast<int>(std::ceil(turn * camera.outer_radius_px / kSharpEnough_px)), 1, kMostExposures);
   std::vector<geometry::Pose2> poses;
+  poses.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) poses.push_back(way.pose_at(seconds + camera.exposure_s * ((i + 0.5) / count - 0.5)));
   return poses;
 }

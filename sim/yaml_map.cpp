@@ -43,8 +43,8 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   return best;
 }
 
-YamlMap::YamlMap(YAML::Node node, std::string file, std::string what)
-    : node_(std::move(node)), file_(std::move(file)), what_(std::move(what)) {
+YamlMap::YamlMap(const YAML::Node& node, std::string file, std::string what)
+    : node_(node), file_(std::move(file)), what_(std::move(what)) {
   if (!node_.IsMap())
     throw std::runtime_error(location(file_, node_.Mark()) + what_ + " must be a map of keys and values");
 }

@@ -18,7 +18,7 @@ class YamlMap {
   static constexpr double kLargest = 1e6;  ///< of any number, in either direction
 
   /// \throws std::runtime_error  unless the node is a map.
-  YamlMap(YAML::Node node, std::string file, std::string what);
+  YamlMap(const YAML::Node& node, std::string file, std::string what);
 
   [[nodiscard]] bool has(const std::string& key);
   [[nodiscard]] YAML::Node child(const std::string& key);           ///< an undefined node where it is absent

@@ -42,7 +42,7 @@ std::vector<int> sorted_unique(std::span<const Candidate> candidates, int Candid
   std::vector<int> values;
   for (const Candidate& c : candidates) values.push_back(c.*member);
   std::ranges::sort(values);
-  values.erase(std::ranges::unique(values).begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 
