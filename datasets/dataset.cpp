@@ -37,6 +37,7 @@ std::vector<std::string> sensor_folders(const fs::path& folder, std::string_view
   }
   std::sort(found.begin(), found.end());
   std::vector<std::string> names;
+  names.reserve(found.size());
   for (auto& [number, file_name] : found) names.push_back(std::move(file_name));
   return names;
 }
