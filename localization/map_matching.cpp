@@ -99,7 +99,9 @@ BinaryMass MapMatcher::point_evidence(const perception::Scene& scene, const Prim
   const Matrix2d& C = landmark.covariance_in_base;
   const double sigma_off =
       std::sqrt(aside.dot(C * aside) / (range * range) + point.sigma_azimuth * point.sigma_azimuth);
-  std::array<BinaryMass, 3> criteria{params_.point_azimuth(off / sigma_off), BinaryMass::vacuous(),
+  const BinaryMass by_azimuth = params_.point_azimuth(off / sigma_off);
+  if (by_azimuth.yes == 0.0 && by_azimuth.no >= params_.point_range.max_yes) return kDenied;  // whatever the range says
+  std::array<BinaryMass, 3> criteria{by_azimuth, BinaryMass::vacuous(),
                                      same_type ? BinaryMass::vacuous() : params_.other_type};
   if (!point.bearing_only) {
     const double sigma_range = std::sqrt(ahead.dot(C * ahead) + point.sigma_range_m * point.sigma_range_m);

@@ -30,6 +30,65 @@ Pose2 pose_of(const State::Vector& x) { return {x(State::kX), x(State::kY), x(St
 Vector3d vector_of(const Pose2& p) { return {p.x, p.y, p.theta}; }
 Vector2d turned(const Vector2d& v) { return {-v.y(), v.x()}; }
 
+/// A state's pose as a transform, its sine and cosine taken once for all observations.
+struct Frame {
+  explicit Frame(const State::Vector& x) : R(pose_of(x).rotation()), t(x.head<2>()) {}
+  Vector2d operator*(const Vector2d& point) const { return R * point + t; }
+
+  Matrix2d R;
+  Vector2d t;
+};
+
+/// What does not change with the state: along the map's line, or along the bearing in the base frame.
+Vector2d fixed_direction(const Observation& o) {
+  const double angle = o.kind == ObservationKind::kBearing ? o.base_angle : o.map_angle;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// The residual as localization::evaluate has it.
+/// \param fixed  fixed_direction(o)
+/// \param frame  Frame(x)
+void evaluate(const Observation& o, const Vector2d& fixed, const Frame& frame, const State::Vector& x,
+              Vector2d& residual, State::Jacobian* jacobian) {
+  if (jacobian) jacobian->setZero();
+  if (o.kind == ObservationKind::kBearing) {
+    const Vector2d from = frame * o.base_point;
+    const Vector2d way = o.map_point - from;
+    const double c = fixed.x(), s = fixed.y();
+    const double observed = o.base_angle + x(State::kCameraTheta) + x(State::kCameraCos) * c + x(State::kCameraSin) * s;
+    residual = {geometry::wrap_angle(std::atan2(way.y(), way.x()) - x(State::kTheta) - observed), 0.0};
+    if (!jacobian) return;
+    const Vector2d aside = turned(way) / std::max(way.squaredNorm(), 1e-4);
+    const Vector2d by_theta = turned(from - frame.t);
+    jacobian->row(0) << -aside.x(), -aside.y(), -aside.dot(by_theta) - 1.0, 0.0, 0.0, 0.0, -1.0, -c, -s;
+    return;
+  }
+  // The scan as a whole is off by (x, y, theta), in first order.
+  const Vector2d shift = x.segment<2>(State::kRangeX);
+  const Vector2d in_base = o.base_point + shift + x(State::kRangeTheta) * turned(o.base_point);
+  const Vector2d in_map = frame * in_base;
+  const Vector2d by_theta = turned(in_map - frame.t);
+  const Vector2d by_scan_theta = frame.R * turned(o.base_point);
+  if (o.kind == ObservationKind::kPoint) {
+    residual = in_map - o.map_point;
+    if (!jacobian) return;
+    jacobian->leftCols<2>().setIdentity();
+    jacobian->col(State::kTheta) = by_theta;
+    jacobian->middleCols<2>(State::kRangeX) = frame.R;
+    jacobian->col(State::kRangeTheta) = by_scan_theta;
+    return;
+  }
+  const Vector2d normal = turned(fixed);
+  const double angle = o.base_angle + x(State::kRangeTheta) + x(State::kTheta);
+  residual = {normal.dot(in_map - o.map_point), geometry::wrap_line_angle(angle - o.map_angle)};
+  if (!jacobian) return;
+  const Vector2d normal_in_base = frame.R.transpose() * normal;
+  jacobian->row(0) << normal.x(), normal.y(), normal.dot(by_theta), normal_in_base.x(), normal_in_base.y(),
+      normal.dot(by_scan_theta), 0.0, 0.0, 0.0;
+  (*jacobian)(1, State::kTheta) = 1.0;
+  (*jacobian)(1, State::kRangeTheta) = 1.0;
+}
+
 /// U, upper triangular, with U^T U the inverse of a covariance, so that |U e|^2 = e^T covariance^-1 e. Cholesky's
 /// decomposition in plain numbers: Eigen's takes seconds to compile for each size.
 template <int kRows>
@@ -52,15 +111,12 @@ struct ResidualCovariance {
   Matrix2d plan;
 };
 
-ResidualCovariance residual_covariance(const Observation& o, const Pose2& pose) {
+ResidualCovariance residual_covariance(const Observation& o, const Frame& frame) {
   switch (o.kind) {
     case ObservationKind::kWall: return {o.noise, o.plan};
-    case ObservationKind::kPoint: {
-      const Matrix2d R = pose.rotation();
-      return {R * o.noise * R.transpose(), o.plan};
-    }
+    case ObservationKind::kPoint: return {frame.R * o.noise * frame.R.transpose(), o.plan};
     case ObservationKind::kBearing: {
-      const Vector2d way = o.map_point - pose * o.base_point;
+      const Vector2d way = o.map_point - frame * o.base_point;
       const double squared = std::max(way.squaredNorm(), 1e-4);
       const Vector2d aside = turned(way) / squared;
       Matrix2d noise = Matrix2d::Identity(), plan = Matrix2d::Zero();
@@ -100,6 +156,18 @@ CommonErrors common_errors_of(const sensors::Rig& rig) {
   return common;
 }
 
+/// Squared residual per degree of freedom in standard deviations.
+double normalised_square(const Observation& o, const ResidualCovariance& covariance, const Vector2d& residual) {
+  return residual.dot((covariance.noise + covariance.plan).inverse() * residual) / o.dimension();
+}
+
+/// Squared Mahalanobis distance of a state's pose from the prior.
+double step_squared(const SplitPose& prior, const State::Vector& x) {
+  Vector3d step = x.head<3>() - vector_of(prior.pose);
+  step(2) = geometry::wrap_angle(step(2));
+  return step.dot(prior.covariance().inverse() * step);
+}
+
 /// Whitened residuals of the prior on the state (9 rows) and of all observations (2 rows each), for ceres::TinySolver.
 struct WhitenedResiduals {
   using Scalar = double;
@@ -108,7 +176,8 @@ struct WhitenedResiduals {
   State::Vector prior = State::Vector::Zero();
   BlockMatrices prior_whiteners;
   const std::vector<Observation>* observations = nullptr;
-  std::vector<Matrix2d> whiteners;  ///< square root of the robust weight included
+  std::vector<Vector2d> directions;  ///< fixed_direction of each
+  std::vector<Matrix2d> whiteners;   ///< square root of the robust weight included
 
   [[nodiscard]] int NumResiduals() const { return State::kSize + 2 * static_cast<int>(observations->size()); }
 
@@ -124,10 +193,11 @@ struct WhitenedResiduals {
       J.topRows<State::kSize>().setZero();
       for (int b = 0; b < kBlocks; ++b) J.block<3, 3>(3 * b, 3 * b) = prior_whiteners[b];
     }
+    const Frame frame(x);
     for (std::size_t k = 0; k < observations->size(); ++k) {
       Vector2d raw;
       State::Jacobian by_state;
-      evaluate((*observations)[k], x, raw, jacobian ? &by_state : nullptr);
+      evaluate((*observations)[k], directions[k], frame, x, raw, jacobian ? &by_state : nullptr);
       const auto row = static_cast<Eigen::Index>(State::kSize + 2 * k);
       e.segment<2>(row) = whiteners[k] * raw;
       if (jacobian) J.middleRows<2>(row) = whiteners[k] * by_state;
@@ -211,58 +281,13 @@ double chi_square_gate(int dimension, double p) {
 }  // namespace
 
 void evaluate(const Observation& o, const State::Vector& x, Vector2d& residual, State::Jacobian* jacobian) {
-  const Pose2 pose = pose_of(x);
-  if (jacobian) jacobian->setZero();
-  if (o.kind == ObservationKind::kBearing) {
-    const Vector2d from = pose * o.base_point;
-    const Vector2d way = o.map_point - from;
-    const double c = std::cos(o.base_angle), s = std::sin(o.base_angle);
-    const double observed = o.base_angle + x(State::kCameraTheta) + x(State::kCameraCos) * c + x(State::kCameraSin) * s;
-    residual = {geometry::wrap_angle(std::atan2(way.y(), way.x()) - pose.theta - observed), 0.0};
-    if (!jacobian) return;
-    const Vector2d aside = turned(way) / std::max(way.squaredNorm(), 1e-4);
-    const Vector2d by_theta = turned(from - pose.translation());
-    jacobian->row(0) << -aside.x(), -aside.y(), -aside.dot(by_theta) - 1.0, 0.0, 0.0, 0.0, -1.0, -c, -s;
-    return;
-  }
-  // The scan as a whole is off by (x, y, theta), in first order.
-  const Vector2d shift = x.segment<2>(State::kRangeX);
-  const Vector2d in_base = o.base_point + shift + x(State::kRangeTheta) * turned(o.base_point);
-  const Vector2d in_map = pose * in_base;
-  const Vector2d by_theta = turned(in_map - pose.translation());
-  const Matrix2d R = pose.rotation();
-  const Vector2d by_scan_theta = R * turned(o.base_point);
-  if (o.kind == ObservationKind::kPoint) {
-    residual = in_map - o.map_point;
-    if (!jacobian) return;
-    jacobian->leftCols<2>().setIdentity();
-    jacobian->col(State::kTheta) = by_theta;
-    jacobian->middleCols<2>(State::kRangeX) = R;
-    jacobian->col(State::kRangeTheta) = by_scan_theta;
-    return;
-  }
-  const Vector2d normal(-std::sin(o.map_angle), std::cos(o.map_angle));
-  const double angle = o.base_angle + x(State::kRangeTheta) + pose.theta;
-  residual = {normal.dot(in_map - o.map_point), geometry::wrap_line_angle(angle - o.map_angle)};
-  if (!jacobian) return;
-  const Vector2d normal_in_base = R.transpose() * normal;
-  jacobian->row(0) << normal.x(), normal.y(), normal.dot(by_theta), normal_in_base.x(), normal_in_base.y(),
-      normal.dot(by_scan_theta), 0.0, 0.0, 0.0;
-  (*jacobian)(1, State::kTheta) = 1.0;
-  (*jacobian)(1, State::kRangeTheta) = 1.0;
+  evaluate(o, fixed_direction(o), Frame(x), x, residual, jacobian);
 }
 
 void evaluate(const Observation& observation, const Pose2& pose, Vector2d& residual) {
   State::Vector x = State::Vector::Zero();
   x.head<3>() = vector_of(pose);
   evaluate(observation, x, residual, nullptr);
-}
-
-/// Squared Mahalanobis distance of a state's pose from the prior.
-double step_squared(const SplitPose& prior, const PoseState::Vector& x) {
-  Vector3d step = x.head<3>() - vector_of(prior.pose);
-  step(2) = geometry::wrap_angle(step(2));
-  return step.dot(prior.covariance().inverse() * step);
 }
 
 struct PoseSolver::State {
@@ -296,21 +321,17 @@ void PoseSolver::State::minimise(const Prior& prior, double omega, PoseState::Ve
   x(PoseState::kTheta) = geometry::wrap_angle(x(PoseState::kTheta));
 }
 
-/// Squared residual per degree of freedom in standard deviations.
-double normalised_square(const Observation& o, const ResidualCovariance& covariance, const Vector2d& residual) {
-  return residual.dot((covariance.noise + covariance.plan).inverse() * residual) / o.dimension();
-}
-
 /// Linearises; robust weights: Cauchy's 1 / (1 + s / c^2), and its square from the prior (Geman and McClure), under
 /// which an observation that is far off pulls no more.
 void PoseSolver::State::reweight(const PoseState::Vector& x, Start start) {
   const std::vector<Observation>& observations = *residuals.observations;
   const double scale = params.robust_scale * params.robust_scale;
+  const Frame frame(x);
   for (std::size_t k = 0; k < observations.size(); ++k) {
     Linearised& l = linearised[k];
     Vector2d residual;
-    evaluate(observations[k], x, residual, &l.by_state);
-    l.covariance = residual_covariance(observations[k], pose_of(x));
+    evaluate(observations[k], residuals.directions[k], frame, x, residual, &l.by_state);
+    l.covariance = residual_covariance(observations[k], frame);
     const double cauchy = 1.0 / (1.0 + normalised_square(observations[k], l.covariance, residual) / scale);
     l.weight = start == Start::kPrior ? cauchy * cauchy : cauchy;
   }
@@ -343,7 +364,7 @@ double PoseSolver::State::bounded_cost(const Prior& prior, const PoseState::Vect
   for (const Observation& o : *residuals.observations) {
     Vector2d residual;
     evaluate(o, x, residual, nullptr);
-    const double squared = normalised_square(o, residual_covariance(o, pose_of(x)), residual);
+    const double squared = normalised_square(o, residual_covariance(o, Frame(x)), residual);
     cost += o.dimension() * scale * squared / (scale + squared);
   }
   return cost;
@@ -406,6 +427,8 @@ const PoseSolution& PoseSolver::solve(const SplitPose& prior_pose, const std::ve
   s.residuals.prior = x;
   s.residuals.observations = &observations;
   s.residuals.whiteners.resize(observations.size());
+  s.residuals.directions.clear();
+  for (const Observation& o : observations) s.residuals.directions.push_back(fixed_direction(o));
   s.linearised.resize(observations.size());
   auto start = State::Start::kAll;
   x = s.settle(prior, start);
