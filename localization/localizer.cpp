@@ -5,7 +5,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -42,13 +41,6 @@ struct Fix {
   evidence::BinaryMass belief;
 };
 
-/// From one fix to the next.
-struct Step {
-  Pose2 motion;
-  double seconds = 0.0;  ///< > 0
-};
-constexpr std::size_t kStepsRemembered = 3;
-
 SplitPose moved(const SplitPose& from, const PoseEstimate& motion) {
   const PoseEstimate independent = geometry::compose({from.pose, from.independent}, motion);
   const PoseEstimate correlated = geometry::compose({from.pose, from.correlated}, {motion.pose, Matrix3d::Zero()});
@@ -61,9 +53,6 @@ MapMatchingParams initial_matching(MapMatchingParams params) {
   params.method = perception::Method::kDefault;
   return params;
 }
-
-/// A share of a motion.
-Pose2 scaled(const Pose2& motion, double share) { return geometry::interpolate({}, motion, share); }
 
 }  // namespace
 
@@ -83,7 +72,8 @@ struct Localizer::State {
         first_matcher(map, initial_matching(params.matching)),
         solver(rig, params.solver),
         tracker(params.tracker),
-        absolute(initial.has_value() && !map.empty()) {
+        absolute(initial.has_value() && !map.empty()),
+        predictor(params.constant_velocity) {
     if (absolute) {
       current.pose = initial->pose;
       current.independent = initial->covariance;
@@ -103,7 +93,7 @@ struct Localizer::State {
   SplitPose current;
   Fix latest;
   std::optional<Fix> before;
-  std::vector<Step> steps;  ///< the latest ones
+  MotionPredictor predictor;
   sensors::MotionPath path;
   std::map<int, int> contradictions;  ///< in a row, by track id
 
@@ -114,7 +104,6 @@ struct Localizer::State {
   std::vector<LandmarkId> taken;
   std::vector<MapMatch> new_matches;
 
-  [[nodiscard]] Pose2 usual_step(double seconds) const;
   [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
   [[nodiscard]] PoseEstimate estimate() const { return {current.pose, current.covariance()}; }
   void expect_landmarks(const SplitPose& predicted);
@@ -136,33 +125,10 @@ struct Localizer::State {
   [[nodiscard]] Localization report(const Scene& scene) const;
 };
 
-/// The component-wise median of the latest steps, each as long as `seconds`: one wrong pose makes two wrong steps of
-/// it, and neither is followed.
-Pose2 Localizer::State::usual_step(double seconds) const {
-  std::array<std::array<double, kStepsRemembered>, 3> parts{};
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const Pose2 step = scaled(steps[i].motion, std::clamp(seconds / steps[i].seconds, 0.0, 5.0));
-    parts[0][i] = step.x, parts[1][i] = step.y, parts[2][i] = step.theta;
-  }
-  const auto median = [n = steps.size()](std::array<double, kStepsRemembered>& values) {
-    if (n < kStepsRemembered) return values[n - 1];
-    std::nth_element(values.begin(), values.begin() + kStepsRemembered / 2, values.end());
-    return values[kStepsRemembered / 2];
-  };
-  return {median(parts[0]), median(parts[1]), median(parts[2])};
-}
-
-/// Odometry's motion; else what the latest velocity predicts; else rest, with the uncertainty of not knowing.
+/// Odometry's motion; else what the latest velocity predicts.
 PoseEstimate Localizer::State::predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const {
   if (motion && (params.method == perception::Method::kDefault || !absolute)) return *motion;
-  const ConstantVelocityParams& cv = params.constant_velocity;
-  const Pose2 step = steps.empty() ? Pose2{} : usual_step(sensors::seconds_between(latest.time, time));
-  const double distance = steps.empty() ? cv.first_step_m : std::hypot(step.x, step.y);
-  const double turn = steps.empty() ? cv.first_turn_rad : std::abs(step.theta);
-  const double sigma_t = cv.translation_sigma_m + cv.translation_sigma_share * distance;
-  const double sigma_r = cv.rotation_sigma_rad + cv.rotation_sigma_share * turn;
-  const Eigen::Vector3d variance(sigma_t * sigma_t, sigma_t * sigma_t, sigma_r * sigma_r);
-  return {step, variance.asDiagonal()};
+  return predictor.predict(sensors::seconds_between(latest.time, time));
 }
 
 /// Map and tracks agree: a track with a landmark is looked for where the map has it.
@@ -442,8 +408,10 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   const bool moves = s.started;
   const bool paper = s.params.method == perception::Method::kPaper;
   PoseEstimate step = s.predicted_motion(motion, scene.time);
+  if (!paper && !motion && s.started)
+    step.pose.theta += unforeseen_turn(s.tracker.tracks(), s.latest.time, scene, step.pose, s.params.constant_velocity);
   s.tracker.predict(!paper && moves ? std::optional(step) : std::nullopt);
-  if (s.absolute && paper && moves && s.steps.empty()) step.pose = s.likeliest_first_step(scene);
+  if (s.absolute && paper && moves && s.predictor.empty()) step.pose = s.likeliest_first_step(scene);
   const SplitPose predicted = moves ? moved(s.current, step) : s.current;
   if (s.absolute && paper) s.expect_young_tracks(step.pose);
   if (s.absolute && !paper) s.expect_landmarks(predicted);
@@ -494,9 +462,8 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   }
   s.before = s.started ? std::optional(s.latest) : std::nullopt;
   if (s.before && scene.time > s.before->time) {
-    if (s.steps.size() == kStepsRemembered) s.steps.erase(s.steps.begin());
-    s.steps.push_back(
-        {s.before->estimate.pose.inverse() * fix.estimate.pose, sensors::seconds_between(s.before->time, scene.time)});
+    s.predictor.add(s.before->estimate.pose.inverse() * fix.estimate.pose,
+                    sensors::seconds_between(s.before->time, scene.time));
   }
   s.latest = {scene.time, fix.estimate, fix.belief};
   s.started = true;

@@ -11,21 +11,12 @@
 #include "localization/localization.hpp"
 #include "localization/localization_belief.hpp"
 #include "localization/map_matching.hpp"
+#include "localization/motion_prediction.hpp"
 #include "localization/observations.hpp"
 #include "localization/pose_solver.hpp"
 #include "tracking/tracker.hpp"
 
 namespace credo::localization {
-
-/// How the pose is predicted where no odometry says how the robot moved: by its latest velocity.
-struct ConstantVelocityParams {
-  double translation_sigma_share = 0.5;  ///< of the distance that the velocity predicts
-  double translation_sigma_m = 0.10;
-  double rotation_sigma_share = 0.5;  ///< of the turn that the velocity predicts
-  double rotation_sigma_rad = 0.10;
-  double first_step_m = 0.6;  ///< what the robot may do before anything is known of its velocity
-  double first_turn_rad = 0.2;
-};
 
 struct LocalizerParams {
   perception::Method method = perception::Method::kDefault;
