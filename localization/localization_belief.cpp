@@ -14,11 +14,17 @@ namespace credo::localization {
 
 using evidence::BinaryMass;
 
+BinaryMass recognition_belief(const LocalizationEvidence& evidence, const LocalizationBeliefParams& params) {
+  if (params.method == perception::Method::kPaper || evidence.in_sight < params.least_in_sight)
+    return BinaryMass::vacuous();
+  return params.recognised(static_cast<double>(evidence.recognised) / evidence.in_sight);
+}
+
 evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& evidence,
                                               const LocalizationBeliefParams& params) {
   const double ratio =
       evidence.detected > 0.0 ? evidence.explained / evidence.detected : std::numeric_limits<double>::quiet_NaN();
-  const std::array criteria{params.count(evidence.matched), params.ratio(ratio)};
+  const std::array criteria{params.count(evidence.matched), params.ratio(ratio), recognition_belief(evidence, params)};
   std::vector<evidence::Part> parts;
   for (const tracking::Track& track : evidence.tracks) {
     if (track.landmark == tracking::kNoLandmark || track.state != tracking::TrackState::kTracked) continue;
@@ -48,6 +54,7 @@ void judge(Localization& localization, bool camera_seen, bool range_finder_seen,
   else if (localization.matched < 3)
     because("few landmarks");
   if (belief.no > belief.yes) because("most of what is seen is not in the plan");
+  if (localization.unrecognised) because("landmarks that should be in sight are not seen");
   // Written so that a covariance that is not a number fails.
   const bool position_known = sigma <= params.max_position_sigma_m;
   const bool heading_known = std::sqrt(P(2, 2)) <= params.max_heading_sigma_rad;

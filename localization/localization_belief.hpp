@@ -30,6 +30,15 @@ struct LocalizationBeliefParams {
                              .max_no = 0.6,
                              .no_zero_until = 0.5,
                              .no_full_from = 0.2};
+  /// The default's third: on the share of the plan's points in sight that are recognised. A pose that is shifted along
+  /// a corridor fits all walls; the points tell.
+  evidence::RampBelief recognised{.max_yes = 0.6,
+                                  .yes_full_until = 0.6,
+                                  .yes_zero_from = 0.4,
+                                  .max_no = 0.8,
+                                  .no_zero_until = 0.4,
+                                  .no_full_from = 0.25};
+  int least_in_sight = 4;          ///< fewer points say nothing
   double wall_reliability = 0.3;   ///< of a wall's track as a criterion
   double other_reliability = 0.6;  ///< of a corner's, an edge's, another's: the strong azimuths
 };
@@ -39,8 +48,14 @@ struct LocalizationEvidence {
   int matched = 0;         ///< primitives that the pose rests on
   double detected = 0.0;   ///< against which the ratio is taken
   double explained = 0.0;  ///< of them, matched
+  int in_sight = 0;        ///< points of the plan that should be seen from the pose
+  int recognised = 0;      ///< of them, matched
   std::span<const tracking::Track> tracks;
 };
+
+/// Whether what should be seen is seen: vacuous under the paper's method, and where there is too little to say.
+[[nodiscard]] evidence::BinaryMass recognition_belief(const LocalizationEvidence& evidence,
+                                                      const LocalizationBeliefParams& params = {});
 
 /// Mass on "the localization is correct". The tracks that were matched in this acquisition and have a landmark take
 /// part.

@@ -90,6 +90,7 @@ struct Localizer::State {
   tracking::Tracker tracker;
   bool absolute;  ///< poses are in the map frame, not relative to the start
   bool started = false;
+  bool doubted = false;  ///< much that should have been seen from the latest fix was not
   SplitPose current;
   Fix latest;
   std::optional<Fix> before;
@@ -105,6 +106,7 @@ struct Localizer::State {
   std::vector<MapMatch> new_matches;
 
   [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
+  [[nodiscard]] Matrix3d doubt() const;
   [[nodiscard]] PoseEstimate estimate() const { return {current.pose, current.covariance()}; }
   void expect_landmarks(const SplitPose& predicted);
   void expect_young_tracks(const Pose2& step);
@@ -121,6 +123,7 @@ struct Localizer::State {
   void forget_lost_tracks();
   void update_motion_only(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
   [[nodiscard]] PlanAgreement agreement_of(const Primitive& primitive) const;
+  void count_points_in_sight(const Scene& scene, LocalizationEvidence& evidence) const;
   [[nodiscard]] LocalizationEvidence weigh(const Scene& scene) const;
   [[nodiscard]] Localization report(const Scene& scene) const;
 };
@@ -129,6 +132,12 @@ struct Localizer::State {
 PoseEstimate Localizer::State::predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const {
   if (motion && (params.method == perception::Method::kDefault || !absolute)) return *motion;
   return predictor.predict(sensors::seconds_between(latest.time, time));
+}
+
+/// What is added to the motion's covariance after a fix from which the plan is not recognised: wheels may have slipped.
+Matrix3d Localizer::State::doubt() const {
+  const double position = params.doubt_sigma_m * params.doubt_sigma_m;
+  return Eigen::Vector3d(position, position, params.doubt_sigma_rad * params.doubt_sigma_rad).asDiagonal();
 }
 
 /// Map and tracks agree: a track with a landmark is looked for where the map has it.
@@ -329,12 +338,33 @@ void Localizer::State::update_motion_only(const Scene& scene, const std::vector<
   current = moved(current, {solution.pose.pose, solution.pose.covariance()});
 }
 
+/// Points of the plan that should be seen from the pose, and those that are. Marks without relief are the camera's
+/// alone.
+void Localizer::State::count_points_in_sight(const Scene& scene, LocalizationEvidence& evidence) const {
+  const Vector2d viewpoint = current.pose.translation();
+  for (std::size_t k = 0; k < map.points().size(); ++k) {
+    const PointLandmark& point = map.points()[k];
+    const bool hidden = (point.position - viewpoint).norm() > params.sight_m ||
+                        !(point.vertical ? scene.camera_seen : scene.camera_seen || scene.range_finder_seen) ||
+                        !map.type_from(point, viewpoint) ||
+                        !map.sees(viewpoint, point.position, params.matching.visibility_margin_m);
+    if (hidden) continue;
+    ++evidence.in_sight;
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+      if (observations[i].landmark != map.point_id(k) || solver.solution().outlier[i]) continue;
+      ++evidence.recognised;
+      break;
+    }
+  }
+}
+
 /// What the belief rests on. Under the default method a primitive counts against the localization as far as the plan
 /// denies it: in full where it stands behind a wall, little where something may have been put before one, and not at
 /// all where it lies on a wall of the plan, as the face of a curve or a mark that the plan does not list does.
 LocalizationEvidence Localizer::State::weigh(const Scene& scene) const {
   LocalizationEvidence evidence;
   evidence.tracks = tracker.tracks();
+  count_points_in_sight(scene, evidence);
   std::vector<bool> explained(scene.primitives.size(), false);
   for (std::size_t k = 0; k < observations.size(); ++k)
     if (!solver.solution().outlier[k]) explained[static_cast<std::size_t>(observations[k].primitive)] = true;
@@ -412,6 +442,7 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
     step.pose.theta += unforeseen_turn(s.tracker.tracks(), s.latest.time, scene, step.pose, s.params.constant_velocity);
   s.tracker.predict(!paper && moves ? std::optional(step) : std::nullopt);
   if (s.absolute && paper && moves && s.predictor.empty()) step.pose = s.likeliest_first_step(scene);
+  if (s.doubted) step.covariance += s.doubt();
   const SplitPose predicted = moves ? moved(s.current, step) : s.current;
   if (s.absolute && paper) s.expect_young_tracks(step.pose);
   if (s.absolute && !paper) s.expect_landmarks(predicted);
@@ -450,6 +481,8 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
     fix.innovation = s.solver.solution().prior_mahalanobis_squared;
     if (fix.innovation > s.params.status.max_innovation)
       fix.belief = evidence::discount(fix.belief, s.params.contradiction_reliability);
+    fix.unrecognised = recognition_belief(evidence, s.params.belief).no > 0.0;
+    s.doubted = fix.unrecognised;
     judge(fix, scene.camera_seen, scene.range_finder_seen, s.params.status);
   } else {
     if (moves) s.update_motion_only(scene, matches, step);

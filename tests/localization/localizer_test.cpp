@@ -44,7 +44,7 @@ sensors::Rig rig() {
 /// A drive through the room: acquisitions with scans and odometry, and the truth.
 class Drive {
  public:
-  explicit Drive(std::uint64_t seed) : random_(seed), map_(room()) {}
+  explicit Drive(std::uint64_t seed, const geometry::FloorPlan& plan = room()) : random_(seed), map_(plan) {}
 
   sensors::Acquisition acquire(const Pose2& truth, const Pose2& step, bool blind = false) {
     sensors::Acquisition acquisition;
@@ -152,6 +152,47 @@ TEST(Localizer, InAnotherBuildingItDoesNotClaimToBeLocalized) {
   for (int i = 0; i < 5; ++i) fix = localize(drive.acquire({1.0, 1.5, 0.0}, {}));
   EXPECT_NE(fix.status, Status::kLocalized);
   EXPECT_LT(fix.belief.yes, 0.5);
+}
+
+/// A corridor with niches: walls fit all along it, only the niches' corners tell where the robot is.
+geometry::FloorPlan corridor() {
+  geometry::FloorPlan plan;
+  plan.uncertainty_m = 0.005;
+  std::vector<Vector2d> p{{0, 0}, {20, 0}, {20, 2}};
+  for (const double x : {17.5, 14.0, 11.5, 7.0, 3.0})
+    p.insert(p.end(), {{x, 2.0}, {x, 2.5}, {x - 0.9, 2.5}, {x - 0.9, 2.0}});
+  p.emplace_back(0, 2);
+  for (std::size_t i = 0; i < p.size(); ++i) plan.walls.push_back({p[i], p[(i + 1) % p.size()]});
+  return plan;
+}
+
+/// \returns the fixes of a drive along the corridor in whose fifth step the wheels slip by `slip`, and the true poses.
+std::vector<std::pair<Localization, Pose2>> slipped_drive(double slip) {
+  Drive drive(5, corridor());
+  Pipeline localize(corridor(), given({3.0, 1.0, 0.0}));
+  Pose2 truth{3.0, 1.0, 0.0};
+  const Pose2 step{0.3, 0.0, 0.0};
+  std::vector<std::pair<Localization, Pose2>> fixes;
+  for (int i = 0; i < 14; ++i) {
+    const Pose2 measured{step.x + (i == 5 ? slip : 0.0), 0.0, 0.0};
+    fixes.emplace_back(localize(drive.acquire(truth, measured)), truth);
+    truth = truth * step;
+  }
+  return fixes;
+}
+
+TEST(Localizer, ASlipOfTheWheelsIsNotBelieved) {
+  for (const double slip : {0.3, 0.6})
+    for (const auto& [fix, truth] : slipped_drive(slip)) {
+      const bool wrong = position_error(fix, truth) > 0.3;
+      EXPECT_FALSE(wrong && fix.status == Status::kLocalized && fix.belief.yes > 0.8) << slip << " m: " << fix;
+    }
+}
+
+TEST(Localizer, FindsBackFromASmallSlip) {
+  const auto fixes = slipped_drive(0.3);
+  EXPECT_LT(position_error(fixes.back().first, fixes.back().second), 0.05);
+  EXPECT_EQ(fixes.back().first.status, Status::kLocalized);
 }
 
 TEST(Localizer, WithoutAPlanItGivesTheMotionFromItsStart) {
