@@ -107,12 +107,16 @@ void AzimuthEdgeFilter::measure(const AnnulusTable& table, const std::uint8_t* p
   constexpr std::size_t kLeastWidths = 20;
   std::array<int, kBins> counts{};
   int total = 0;
+  levels_ = {};
   widths_.clear();
   const int clear_step = static_cast<int>(4.0 * params_.least_step * gain_);
   for (int row = 0; row < static_cast<int>(table.rows().size()); row += params_.noise_row_step) {
     filter_row(table, pixels, row);
     const int columns = table.rows()[row].columns;
-    for (int i = 0; i < columns; ++i) ++counts[std::min(kBins - 1, std::abs(response_[kMargin + i]) / kBinWidth)];
+    for (int i = 0; i < columns; ++i) {
+      ++counts[std::min(kBins - 1, std::abs(response_[kMargin + i]) / kBinWidth)];
+      if (table.usable(row, i)) ++levels_[samples_[kMargin + i] / AnnulusTable::kScale];
+    }
     total += columns;
     measure_widths(columns, clear_step);
   }
@@ -208,14 +212,15 @@ void AzimuthEdgeFilter::add_hit(const AnnulusTable& table, int row, int column, 
   const double sharp = params_.broad_from * width_columns_;
   const double excess_px = column_px_ * std::sqrt(std::max(0.0, variance - sharp * sharp));
   const double model_px = saturated ? params_.saturated_sigma_px : params_.model_sigma_px;
+  const double broad_px = params_.broad_share * excess_px;
+  const double sigma_px = std::sqrt(noise_px * noise_px + model_px * model_px + broad_px * broad_px);
   double azimuth = (column + sign * between) * column_rad;
   if (azimuth < 0.0) azimuth += 2.0 * std::numbers::pi;
-  hits.push_back(
-      {.azimuth = static_cast<float>(azimuth),
-       .sigma = static_cast<float>(std::hypot(noise_px, model_px, params_.broad_share * excess_px) / circle.radius_px),
-       .step = static_cast<float>(response[0] / gain_),
-       .row = static_cast<std::int16_t>(row),
-       .saturated = saturated});
+  hits.push_back({.azimuth = static_cast<float>(azimuth),
+                  .sigma = static_cast<float>(sigma_px / circle.radius_px),
+                  .step = static_cast<float>(response[0] / gain_),
+                  .row = static_cast<std::int16_t>(row),
+                  .saturated = saturated});
 }
 
 }  // namespace credo::perception

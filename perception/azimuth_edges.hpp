@@ -24,7 +24,7 @@ struct EdgeFilterParams {
   double neighbour_share = 0.5;      ///< of the shift that is taken out of a hit, which stays as its uncertainty
   double broad_from = 1.15;          ///< an answer that much broader than the image's is no single sharp step
   double broad_share = 0.5;          ///< of what its breadth has in excess, that is its uncertainty
-  int noise_row_step = 8;            ///< every which row the noise is measured in
+  int noise_row_step = 8;            ///< every which row grey levels, noise and widths are measured in
 };
 
 /// One step of brightness across one circle.
@@ -46,14 +46,14 @@ class AzimuthEdgeFilter {
   /// measure().
   void find(const AnnulusTable& table, const std::uint8_t* pixels, std::vector<EdgeHit>& hits);
 
-  /// Measures the noise and the width of the filter's answers in every noise_row_step-th circle of an image, for
-  /// find().
+  /// Measures the grey levels, the noise and the width of the filter's answers in every noise_row_step-th circle of an
+  /// image; noise and width are for find().
   void measure(const AnnulusTable& table, const std::uint8_t* pixels);
 
+  /// How often each grey level was met, where the table is usable.
+  [[nodiscard]] const std::array<int, 256>& levels() const { return levels_; }
   /// 1-sigma of the grey levels, from the median of the filter's answers: fine texture counts as noise.
   [[nodiscard]] double noise() const { return noise_; }
-  /// 1-sigma of the answer to a step, the filter's and the image's blur together; a median. [px]
-  [[nodiscard]] double answer_width_px() const { return width_columns_ * column_px_; }
 
  private:
   static constexpr int kReach = 4;   ///< taps on each side
@@ -68,8 +68,9 @@ class AzimuthEdgeFilter {
   std::array<std::int16_t, kReach> taps_{};
   double column_px_ = 1.0;
   double nominal_width_ = 1.0;  ///< answer to a step with the expected blur, 1-sigma [columns]
-  double width_columns_ = 1.0;
+  double width_columns_ = 1.0;  ///< the same as measured in the image, a median
   double noise_ = 0.0;
+  std::array<int, 256> levels_{};
   double gain_ = 1.0;                   ///< filter answer per grey level of a step
   double noise_gain_ = 1.0;             ///< 1-sigma of the filter's answer per grey level of noise
   double extremum_gain_ = 1.0;          ///< see hit sigma

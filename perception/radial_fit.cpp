@@ -68,12 +68,15 @@ RadialFit fit_radial_line(std::span<const RadialPoint> points, double start, dou
     const double pp = sum.pp + prior;
     const double determinant = sum.aa * pp - sum.ap * sum.ap;
     if (!(sum.aa > 0.0) || !(determinant > 0.0)) return fit;
+    const double before = fit.azimuth;
     fit.azimuth = (pp * sum.ya - sum.ap * sum.yp) / determinant;
     fit.slope = (sum.aa * sum.yp - sum.ap * sum.ya) / determinant;
     fit.scale = std::max(1.0, std::sqrt(sum.weighted_square / std::max(1.0, sum.weight - 2.0)));
     fit.sigma = params.error_inflation * fit.scale * std::sqrt(pp / determinant);
     fit.sigma_slope = params.error_inflation * fit.scale * std::sqrt(sum.aa / determinant);
-    limit = std::max(params.tukey * std::min(fit.scale, 3.0), 0.5 * limit);
+    const double settled = params.tukey * std::min(fit.scale, 3.0);
+    if (limit <= settled && std::abs(fit.azimuth - before) < params.settled_sigmas * fit.sigma) break;
+    limit = std::max(settled, 0.5 * limit);
   }
   count_support(points, params, fit);
   return fit;

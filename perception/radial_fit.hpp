@@ -17,8 +17,9 @@ struct RadialPoint {
 };
 
 struct RadialFitParams {
-  double tukey = 4.685;  ///< where a point loses its weight, in robust standard deviations
-  int iterations = 8;
+  double tukey = 4.685;          ///< where a point loses its weight, in robust standard deviations
+  int iterations = 8;            ///< at most
+  double settled_sigmas = 0.01;  ///< a step that small, in standard deviations of the azimuth, is the last
   double support_sigmas = 4.0;   ///< a point within this many standard deviations supports the line
   double error_inflation = 1.4;  ///< neighbouring circles share pixels and the sampling pattern
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -106,17 +107,10 @@ void RadialLineExtractor::State::recenter() {
 
 /// \returns whether there is anything to be seen in the image.
 bool RadialLineExtractor::State::look(const std::uint8_t* pixels, Scene& scene) {
-  std::array<int, 256> histogram{};
-  int total = 0;
-  for (int row = 0; row < static_cast<int>(annulus.rows().size()); row += params.edges.noise_row_step) {
-    annulus.sample(pixels, row, scratch.data());
-    const int columns = annulus.rows()[row].columns;
-    for (int i = 0; i < columns; ++i) {
-      if (!annulus.usable(row, i)) continue;
-      ++histogram[scratch[i] / AnnulusTable::kScale];
-      ++total;
-    }
-  }
+  filter.measure(annulus, pixels);
+  noise = filter.noise();
+  const std::array<int, 256>& histogram = filter.levels();
+  const int total = std::accumulate(histogram.begin(), histogram.end(), 0);
   const auto level_at = [&](double share) {
     int below = 0;
     int level = 0;
@@ -126,8 +120,6 @@ bool RadialLineExtractor::State::look(const std::uint8_t* pixels, Scene& scene) 
   int saturated = 0;
   for (int level = 0; level < 256; ++level) saturated += level > params.edges.saturated_level ? histogram[level] : 0;
   scene.saturated_share = total > 0 ? static_cast<double>(saturated) / total : 0.0;
-  filter.measure(annulus, pixels);
-  noise = filter.noise();
   const double least = std::max(params.least_spread, params.least_spread_sigmas * noise);
   const bool dark = level_at(0.99) < params.dark_level && level_at(0.99) - level_at(0.01) < least;
   return total > 0 && !dark && scene.saturated_share <= params.largest_saturated_share;
@@ -200,7 +192,6 @@ RadialLineExtractor::RadialLineExtractor(RadialLineExtractor&&) noexcept = defau
 RadialLineExtractor& RadialLineExtractor::operator=(RadialLineExtractor&&) noexcept = default;
 
 Eigen::Vector2d RadialLineExtractor::center_px() const { return state_->rim.center_px(); }
-double RadialLineExtractor::center_sigma_px() const { return state_->rim.sigma_px(); }
 
 void RadialLineExtractor::extract(const sensors::OmniImage& image, Scene& scene) {
   State& state = *state_;

@@ -74,9 +74,8 @@ class RadialLineExtractor {
   /// \throws std::invalid_argument if the image is not CV_8UC1 of the camera's size.
   void extract(const sensors::OmniImage& image, Scene& scene);
 
-  /// Centre of the mirror as used for the last image, and its 1-sigma per axis. [px]
+  /// Centre of the mirror as used for the last image. [px]
   [[nodiscard]] Eigen::Vector2d center_px() const;
-  [[nodiscard]] double center_sigma_px() const;
 
  private:
   struct State;
