@@ -18,6 +18,7 @@ struct LandmarkMapParams {
   double max_collinear_turn_rad = 0.09;  ///< joined walls that turn by less, and stay on the line, are one wall
   double min_corner_angle_rad = 0.7854;  ///< a junction's angle for a corner or an edge: 45 ..
   double max_corner_angle_rad = 2.3562;  ///< .. 135 degrees
+  double visibility_margin_m = 0.08;     ///< a landmark this much behind a wall of the plan still counts as visible
   bool cut_walls_at_points = false;      ///< a wall ends at each point that lies on it, as the paper's segments end at
                                          ///< radial lines
 };
@@ -69,6 +70,11 @@ class LandmarkMap {
 
   /// Whether no wall of the plan stands between the viewpoint and the target, `margin_m` before the target excepted.
   [[nodiscard]] bool sees(const Eigen::Vector2d& viewpoint, const Eigen::Vector2d& target, double margin_m) const;
+
+  /// The same for a landmark: with LandmarkMapParams::visibility_margin_m.
+  [[nodiscard]] bool shows(const Eigen::Vector2d& viewpoint, const Eigen::Vector2d& landmark) const {
+    return sees(viewpoint, landmark, params_.visibility_margin_m);
+  }
 
   /// Distance of a point to the nearest wall of the plan; infinity without walls. [m]
   [[nodiscard]] double distance_to_surface(const Eigen::Vector2d& point) const;

@@ -3,13 +3,10 @@
 
 #pragma once
 
-#include <span>
-
 #include "evidence/belief_shapes.hpp"
 #include "evidence/whole_belief.hpp"
 #include "localization/localization.hpp"
-#include "perception/observer.hpp"
-#include "tracking/track.hpp"
+#include "localization/localization_evidence.hpp"
 
 namespace credo::localization {
 
@@ -41,16 +38,6 @@ struct LocalizationBeliefParams {
   int least_in_sight = 4;          ///< fewer points say nothing
   double wall_reliability = 0.3;   ///< of a wall's track as a criterion
   double other_reliability = 0.6;  ///< of a corner's, an edge's, another's: the strong azimuths
-};
-
-/// What the belief in a localization rests on.
-struct LocalizationEvidence {
-  int matched = 0;         ///< primitives that the pose rests on
-  double detected = 0.0;   ///< against which the ratio is taken
-  double explained = 0.0;  ///< of them, matched
-  int in_sight = 0;        ///< points of the plan that should be seen from the pose
-  int recognised = 0;      ///< of them, matched
-  std::span<const tracking::Track> tracks;
 };
 
 /// Whether what should be seen is seen: vacuous under the paper's method, and where there is too little to say.

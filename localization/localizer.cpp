@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 
+#include "localization/pose_history.hpp"
+
 namespace credo::localization {
 namespace {
 
@@ -27,20 +29,6 @@ using tracking::Track;
 /// The start of a run without a plan or without an initial pose: the origin of its own frame, exactly.
 constexpr double kOriginSigma = 1e-6;
 
-/// Where something lies that is no landmark.
-enum class PlanAgreement {
-  kOnPlan,  ///< on a wall of the plan
-  kBefore,  ///< where the plan has free space
-  kBehind   ///< behind a wall of the plan: it cannot be seen there
-};
-
-/// A pose at an acquisition, with the belief in it.
-struct Fix {
-  Timestamp time = 0;
-  PoseEstimate estimate;
-  evidence::BinaryMass belief;
-};
-
 SplitPose moved(const SplitPose& from, const PoseEstimate& motion) {
   const PoseEstimate independent = geometry::compose({from.pose, from.independent}, motion);
   const PoseEstimate correlated = geometry::compose({from.pose, from.correlated}, {motion.pose, Matrix3d::Zero()});
@@ -58,7 +46,8 @@ MapMatchingParams initial_matching(MapMatchingParams params) {
 
 LocalizerParams LocalizerParams::with_method(perception::Method chosen) const {
   LocalizerParams params = *this;
-  params.method = params.tracker.method = params.matching.method = params.belief.method = chosen;
+  params.method = params.tracker.method = params.matching.method = chosen;
+  params.evidence.method = params.belief.method = chosen;
   params.map.cut_walls_at_points = chosen == perception::Method::kPaper;
   return params;
 }
@@ -88,14 +77,11 @@ struct Localizer::State {
   MapMatcher first_matcher;
   PoseSolver solver;
   tracking::Tracker tracker;
-  bool absolute;  ///< poses are in the map frame, not relative to the start
-  bool started = false;
+  bool absolute;         ///< poses are in the map frame, not relative to the start
   bool doubted = false;  ///< much that should have been seen from the latest fix was not
   SplitPose current;
-  Fix latest;
-  std::optional<Fix> before;
+  PoseHistory history;
   MotionPredictor predictor;
-  sensors::MotionPath path;
   std::map<int, int> contradictions;  ///< in a row, by track id
 
   // One update's workspace.
@@ -105,9 +91,10 @@ struct Localizer::State {
   std::vector<LandmarkId> taken;
   std::vector<MapMatch> new_matches;
 
-  [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
-  [[nodiscard]] Matrix3d doubt() const;
   [[nodiscard]] PoseEstimate estimate() const { return {current.pose, current.covariance()}; }
+  [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
+  [[nodiscard]] PoseEstimate predict(const Scene& scene, const std::optional<PoseEstimate>& motion);
+  [[nodiscard]] Matrix3d doubt() const;
   void expect_landmarks(const SplitPose& predicted);
   void expect_young_tracks(const Pose2& step);
   [[nodiscard]] Pose2 likeliest_first_step(const Scene& scene);
@@ -116,22 +103,40 @@ struct Localizer::State {
   void list_unmatched(const Scene& scene);
   void match_map(const Scene& scene, const SplitPose& predicted);
   void solve(const Scene& scene, const SplitPose& predicted);
+  void solve_motion(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
   void label_tracks(const std::vector<Match>& matches);
   void release(LandmarkId landmark, int keeper);
   void start_tracks(const Scene& scene);
-  void drop_contradicting_landmarks(const PoseSolution& solution);
+  void drop_contradicting_landmarks();
   void forget_lost_tracks();
-  void update_motion_only(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
-  [[nodiscard]] PlanAgreement agreement_of(const Primitive& primitive) const;
-  void count_points_in_sight(const Scene& scene, LocalizationEvidence& evidence) const;
-  [[nodiscard]] LocalizationEvidence weigh(const Scene& scene) const;
   [[nodiscard]] Localization report(const Scene& scene) const;
+  void weigh(const Scene& scene, Localization& fix);
+  void remember(const Localization& fix);
 };
 
-/// Odometry's motion; else what the latest velocity predicts.
+/// Odometry's motion; else what the latest velocity predicts; nothing before the first scene.
 PoseEstimate Localizer::State::predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const {
+  if (history.empty()) return {};
   if (motion && (params.method == perception::Method::kDefault || !absolute)) return *motion;
-  return predictor.predict(sensors::seconds_between(latest.time, time));
+  return predictor.predict(sensors::seconds_between(history.latest().time, time));
+}
+
+/// Predicts the motion since the latest scene, and from it where the tracks should be seen.
+PoseEstimate Localizer::State::predict(const Scene& scene, const std::optional<PoseEstimate>& motion) {
+  const bool paper = params.method == perception::Method::kPaper;
+  PoseEstimate step = predicted_motion(motion, scene.time);
+  if (!paper && !motion && !history.empty())
+    step.pose.theta +=
+        unforeseen_turn(tracker.tracks(), history.latest().time, scene, step.pose, params.constant_velocity);
+  tracker.predict(!paper && !history.empty() ? std::optional(step) : std::nullopt);
+  if (!absolute || history.empty()) return step;
+  if (paper) {
+    if (predictor.empty()) step.pose = likeliest_first_step(scene);
+    expect_young_tracks(step.pose);
+  }
+  if (doubted) step.covariance += doubt();
+  if (!paper) expect_landmarks(moved(current, step));
+  return step;
 }
 
 /// What is added to the motion's covariance after a fix from which the plan is not recognised: wheels may have slipped.
@@ -162,7 +167,7 @@ void Localizer::State::expect_landmarks(const SplitPose& predicted) {
 void Localizer::State::expect_young_tracks(const Pose2& step) {
   const std::vector<Track>& tracks = tracker.tracks();
   for (std::size_t t = 0; t < tracks.size(); ++t) {
-    if (tracks[t].hits > 1 || tracks[t].last_seen_time != latest.time) continue;
+    if (tracks[t].hits > 1 || tracks[t].last_seen_time != history.latest().time) continue;
     const Vector2d position = step.inverse() * tracks[t].last_seen.position;
     tracker.expect(static_cast<int>(t), std::atan2(position.y(), position.x()), tracks[t].sigma_azimuth);
   }
@@ -201,8 +206,11 @@ void Localizer::State::observe_landmark(const Scene& scene, int primitive, Landm
     wall_in_use[static_cast<std::size_t>(s)] = true;
 }
 
-/// What the tracks continue; walls first, so that points know which walls are in use.
+/// What the tracks continue; walls first, so that points know which walls are in use. A wall's track that goes on as a
+/// junction, or the reverse, is another landmark.
 void Localizer::State::observe_tracks(const Scene& scene, const std::vector<Match>& matches) {
+  for (const Match& match : matches)
+    if (match.transition) tracker.relabel(match.track, kNoLandmark);
   observations.clear();
   wall_in_use.assign(scene.segments.size(), false);
   for (const bool walls : {true, false})
@@ -242,8 +250,7 @@ void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted)
     if (!found.empty()) solve(scene, predicted);
     return !found.empty();
   };
-  new_matches.clear();
-  MapMatcher& matcher = started ? later_matcher : first_matcher;
+  MapMatcher& matcher = history.empty() ? first_matcher : later_matcher;
   for (int round = 0; round < params.matching_rounds; ++round) {
     list_unmatched(scene);
     const bool walls = add(matcher.match_walls(scene, unmatched, estimate()));
@@ -251,6 +258,24 @@ void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted)
     const bool points = add(matcher.match_points(scene, unmatched, estimate(), taken));
     if (!walls && !points) break;
   }
+}
+
+/// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
+void Localizer::State::solve_motion(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion) {
+  observations.clear();
+  if (history.empty()) return;
+  for (const Match& match : matches) {
+    const Track& track = tracker.tracks()[static_cast<std::size_t>(match.track)];
+    const Primitive& now = scene.primitives[static_cast<std::size_t>(match.primitive)];
+    if (track.last_seen_time != history.latest().time || now.bearing_only || track.last_seen.bearing_only ||
+        (now.type == PrimitiveType::kWall) != (track.last_seen.type == PrimitiveType::kWall))
+      continue;
+    observations.push_back(observe_again(now, track.last_seen, params.observations));
+    observations.back().primitive = match.primitive;
+  }
+  const SplitPose prior{motion.pose, motion.covariance, Matrix3d::Zero()};
+  const PoseSolution& solution = solver.solve(prior, observations, scene.carry_covariance);
+  current = moved(current, {solution.pose.pose, solution.pose.covariance()});
 }
 
 /// A point of the map is one thing: a track that it was given to before and that is not seen now lets go of it.
@@ -286,8 +311,8 @@ void Localizer::State::start_tracks(const Scene& scene) {
       continue;
     }
     // Clerentin et al., sec. 5: the initial matching is given with the mass (.5, 0, .5).
-    const std::optional<int> track = started ? tracker.start(scene, primitive, found->yes, found->landmark)
-                                             : tracker.start_given(scene, primitive, found->landmark);
+    const std::optional<int> track = history.empty() ? tracker.start_given(scene, primitive, found->landmark)
+                                                     : tracker.start(scene, primitive, found->yes, found->landmark);
     if (track) release(found->landmark, *track);
     for (Observation& o : observations)
       if (o.primitive == primitive) o.track = track.value_or(-1);
@@ -296,7 +321,8 @@ void Localizer::State::start_tracks(const Scene& scene) {
 
 /// A wrong match shows as a residual that the pose does not explain. Once may be bad luck; a track that goes on is
 /// somebody else.
-void Localizer::State::drop_contradicting_landmarks(const PoseSolution& solution) {
+void Localizer::State::drop_contradicting_landmarks() {
+  const PoseSolution& solution = solver.solution();
   for (std::size_t k = 0; k < solution.outlier.size(); ++k) {
     const int index = observations[k].track;
     if (index < 0) continue;
@@ -320,99 +346,42 @@ void Localizer::State::forget_lost_tracks() {
   });
 }
 
-/// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
-void Localizer::State::update_motion_only(const Scene& scene, const std::vector<Match>& matches,
-                                          const PoseEstimate& motion) {
-  observations.clear();
-  for (const Match& match : matches) {
-    const Track& track = tracker.tracks()[static_cast<std::size_t>(match.track)];
-    const Primitive& now = scene.primitives[static_cast<std::size_t>(match.primitive)];
-    if (track.last_seen_time != latest.time || now.bearing_only || track.last_seen.bearing_only ||
-        (now.type == PrimitiveType::kWall) != (track.last_seen.type == PrimitiveType::kWall))
-      continue;
-    observations.push_back(observe_again(now, track.last_seen, params.observations));
-    observations.back().primitive = match.primitive;
-  }
-  const SplitPose prior{motion.pose, motion.covariance, Matrix3d::Zero()};
-  const PoseSolution& solution = solver.solve(prior, observations, scene.carry_covariance);
-  current = moved(current, {solution.pose.pose, solution.pose.covariance()});
-}
-
-/// Points of the plan that should be seen from the pose, and those that are. Marks without relief are the camera's
-/// alone.
-void Localizer::State::count_points_in_sight(const Scene& scene, LocalizationEvidence& evidence) const {
-  const Vector2d viewpoint = current.pose.translation();
-  for (std::size_t k = 0; k < map.points().size(); ++k) {
-    const PointLandmark& point = map.points()[k];
-    const bool hidden = (point.position - viewpoint).norm() > params.sight_m ||
-                        !(point.vertical ? scene.camera_seen : scene.camera_seen || scene.range_finder_seen) ||
-                        !map.type_from(point, viewpoint) ||
-                        !map.sees(viewpoint, point.position, params.matching.visibility_margin_m);
-    if (hidden) continue;
-    ++evidence.in_sight;
-    for (std::size_t i = 0; i < observations.size(); ++i) {
-      if (observations[i].landmark != map.point_id(k) || solver.solution().outlier[i]) continue;
-      ++evidence.recognised;
-      break;
-    }
-  }
-}
-
-/// What the belief rests on. Under the default method a primitive counts against the localization as far as the plan
-/// denies it: in full where it stands behind a wall, little where something may have been put before one, and not at
-/// all where it lies on a wall of the plan, as the face of a curve or a mark that the plan does not list does.
-LocalizationEvidence Localizer::State::weigh(const Scene& scene) const {
-  LocalizationEvidence evidence;
-  evidence.tracks = tracker.tracks();
-  count_points_in_sight(scene, evidence);
-  std::vector<bool> explained(scene.primitives.size(), false);
-  for (std::size_t k = 0; k < observations.size(); ++k)
-    if (!solver.solution().outlier[k]) explained[static_cast<std::size_t>(observations[k].primitive)] = true;
-  for (std::size_t p = 0; p < explained.size(); ++p) {
-    const Primitive& primitive = scene.primitives[p];
-    evidence.matched += explained[p] ? 1 : 0;
-    if (params.method == perception::Method::kPaper) {
-      evidence.detected += 1.0;
-      evidence.explained += explained[p] ? 1.0 : 0.0;
-      continue;
-    }
-    if (primitive.bearing_only) continue;
-    const double believed = primitive.existence.pignistic();
-    const PlanAgreement agreement = explained[p] ? PlanAgreement::kOnPlan : agreement_of(primitive);
-    if (agreement == PlanAgreement::kOnPlan) {
-      if (primitive.type == PrimitiveType::kOther && !explained[p]) continue;
-      // A junction that the plan does not have where it has a wall is a contradiction, unless the wall is a curve.
-      const bool junction = primitive.type == PrimitiveType::kCorner || primitive.type == PrimitiveType::kEdge;
-      const double weight = believed * (explained[p] ? 1.0 : params.on_plan_weight);
-      evidence.detected += weight;
-      evidence.explained += explained[p] || !junction ? weight : 0.0;
-    } else {
-      evidence.detected += believed * (agreement == PlanAgreement::kBefore ? params.unmapped_weight : 1.0);
-    }
-  }
-  return evidence;
-}
-
-PlanAgreement Localizer::State::agreement_of(const Primitive& primitive) const {
-  const Vector2d viewpoint = current.pose.translation();
-  const Vector2d seen = current.pose * primitive.position;
-  const Matrix3d P = current.covariance();
-  const double sigma =
-      std::sqrt(P(0, 0) + P(1, 1) + P(2, 2) * primitive.range_m * primitive.range_m +
-                primitive.sigma_range_m * primitive.sigma_range_m + map.uncertainty_m() * map.uncertainty_m());
-  const double tolerance =
-      std::clamp(params.on_plan_sigmas * sigma, params.on_plan_m, std::max(params.on_plan_m, params.on_plan_at_most_m));
-  if (map.distance_to_surface(seen) <= tolerance) return PlanAgreement::kOnPlan;
-  return map.sees(viewpoint, seen, tolerance) ? PlanAgreement::kBefore : PlanAgreement::kBehind;
-}
-
 Localization Localizer::State::report(const Scene& scene) const {
   Localization fix;
   fix.time = scene.time;
   fix.estimate = estimate();
   fix.tracked = static_cast<int>(tracker.tracks().size());
   fix.detected = static_cast<int>(scene.primitives.size());
+  if (!absolute)
+    fix.reason = map.empty() ? "no floor plan: the pose is relative to the start"
+                             : "no initial pose: the pose is relative to the start";
   return fix;
+}
+
+/// Belief and status of an absolute pose. Where nothing is seen there is no evidence against it: what was believed
+/// fades into not knowing.
+void Localizer::State::weigh(const Scene& scene, Localization& fix) {
+  LocalizationEvidence evidence = gather_evidence(scene, map, observations, solver.solution(), params.evidence);
+  evidence.tracks = tracker.tracks();
+  const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
+  const evidence::FusedBinaryMass belief =
+      scene.primitives.empty() ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
+                               : localization_belief(evidence, params.belief);
+  fix.belief = belief.mass;
+  fix.conflict = belief.conflict;
+  fix.matched = evidence.matched;
+  fix.innovation = solver.solution().prior_mahalanobis_squared;
+  if (fix.innovation > params.status.max_innovation)
+    fix.belief = evidence::discount(fix.belief, params.contradiction_reliability);
+  fix.unrecognised = doubted = recognition_belief(evidence, params.belief).no > 0.0;
+  judge(fix, scene.camera_seen, scene.range_finder_seen, params.status);
+}
+
+void Localizer::State::remember(const Localization& fix) {
+  history.add({fix.time, fix.estimate, fix.belief});
+  if (history.before() && fix.time > history.before()->time)
+    predictor.add(history.before()->estimate.pose.inverse() * fix.estimate.pose,
+                  sensors::seconds_between(history.before()->time, fix.time));
 }
 
 Localizer::Localizer(const geometry::FloorPlan& plan, const sensors::Rig& rig,
@@ -424,102 +393,52 @@ Localizer& Localizer::operator=(Localizer&&) noexcept = default;
 
 void Localizer::with_path(sensors::Acquisition& acquisition) {
   State& s = *state_;
-  if (acquisition.path.empty() && s.started) {
+  if (acquisition.path.empty() && !s.history.empty()) {
+    const Timestamp from = s.history.latest().time;
     const Pose2 step = s.predicted_motion(std::nullopt, acquisition.time).pose;
-    acquisition.path =
-        sensors::MotionPath({{s.latest.time, {}}, {std::max(acquisition.time, s.latest.time + 1), step}});
+    acquisition.path = sensors::MotionPath({{from, {}}, {std::max(acquisition.time, from + 1), step}});
   }
-  s.path = acquisition.path;
+  s.history.follow(acquisition.path);
 }
 
 Localization Localizer::update(const Scene& scene, const std::optional<PoseEstimate>& motion) {
   State& s = *state_;
   // 1. Predict the pose and where the tracks should be seen.
-  const bool moves = s.started;
-  const bool paper = s.params.method == perception::Method::kPaper;
-  PoseEstimate step = s.predicted_motion(motion, scene.time);
-  if (!paper && !motion && s.started)
-    step.pose.theta += unforeseen_turn(s.tracker.tracks(), s.latest.time, scene, step.pose, s.params.constant_velocity);
-  s.tracker.predict(!paper && moves ? std::optional(step) : std::nullopt);
-  if (s.absolute && paper && moves && s.predictor.empty()) step.pose = s.likeliest_first_step(scene);
-  if (s.doubted) step.covariance += s.doubt();
-  const SplitPose predicted = moves ? moved(s.current, step) : s.current;
-  if (s.absolute && paper) s.expect_young_tracks(step.pose);
-  if (s.absolute && !paper) s.expect_landmarks(predicted);
+  const PoseEstimate step = s.predict(scene, motion);
 
   // 2. Associate the primitives with the tracks.
   const std::vector<Match>& matches = s.tracker.associate(scene);
 
-  Localization fix;
+  s.new_matches.clear();
   if (s.absolute) {
-    // 3. The pose from what is matched; 4. the map for what has appeared, and the pose again.
+    // 3. The pose from what is matched.
+    const SplitPose predicted = s.history.empty() ? s.current : moved(s.current, step);
     s.current = predicted;
-    for (const Match& match :
-         matches)  // a wall's track that goes on as a junction, or the reverse, is another landmark
-      if (match.transition) s.tracker.relabel(match.track, kNoLandmark);
     s.observe_tracks(scene, matches);
     s.solve(scene, predicted);
+    // 4. The map for what has appeared, and the pose again.
     s.match_map(scene, predicted);
-    const PoseSolution& solution = s.solver.solution();
     s.label_tracks(matches);
-    // 5. Start tracks, let go of landmarks that contradict the pose.
-    s.start_tracks(scene);
-    s.drop_contradicting_landmarks(solution);
-    s.tracker.update(scene);
-    s.forget_lost_tracks();
-    // 6. Beliefs and status.
-    fix = s.report(scene);
-    const LocalizationEvidence evidence = s.weigh(scene);
-    // Nothing seen is no evidence against the pose: what was believed fades into not knowing.
-    const evidence::FusedBinaryMass belief =
-        scene.primitives.empty()
-            ? evidence::FusedBinaryMass{evidence::discount(s.latest.belief, s.params.blind_reliability), 0.0}
-            : localization_belief(evidence, s.params.belief);
-    fix.belief = belief.mass;
-    fix.conflict = belief.conflict;
-    fix.matched = evidence.matched;
-    fix.innovation = s.solver.solution().prior_mahalanobis_squared;
-    if (fix.innovation > s.params.status.max_innovation)
-      fix.belief = evidence::discount(fix.belief, s.params.contradiction_reliability);
-    fix.unrecognised = recognition_belief(evidence, s.params.belief).no > 0.0;
-    s.doubted = fix.unrecognised;
-    judge(fix, scene.camera_seen, scene.range_finder_seen, s.params.status);
   } else {
-    if (moves) s.update_motion_only(scene, matches, step);
-    s.new_matches.clear();
-    s.start_tracks(scene);
-    s.tracker.update(scene);
-    fix = s.report(scene);
-    fix.reason = s.map.empty() ? "no floor plan: the pose is relative to the start"
-                               : "no initial pose: the pose is relative to the start";
+    s.solve_motion(scene, matches, step);
   }
-  s.before = s.started ? std::optional(s.latest) : std::nullopt;
-  if (s.before && scene.time > s.before->time) {
-    s.predictor.add(s.before->estimate.pose.inverse() * fix.estimate.pose,
-                    sensors::seconds_between(s.before->time, scene.time));
-  }
-  s.latest = {scene.time, fix.estimate, fix.belief};
-  s.started = true;
+  // 5. Start tracks; let go of landmarks that contradict the pose.
+  s.start_tracks(scene);
+  if (s.absolute) s.drop_contradicting_landmarks();
+  s.tracker.update(scene);
+  s.forget_lost_tracks();
+
+  // 6. Beliefs and status.
+  Localization fix = s.report(scene);
+  if (s.absolute) s.weigh(scene, fix);
+  s.remember(fix);
   return fix;
 }
 
 evidence::Believed<PoseEstimate> Localizer::pose_at(Timestamp time) const {
   const State& s = *state_;
-  if (!s.started) return {{s.current.pose, s.current.covariance()}, evidence::BinaryMass::vacuous()};
-  const bool between = s.before && time < s.latest.time && time >= s.before->time;
-  const Fix& anchor = between ? *s.before : s.latest;
-  PoseEstimate estimate = anchor.estimate;
-  estimate.pose = anchor.estimate.pose * s.path.motion(anchor.time, time);
-  if (!between) return {estimate, anchor.belief};
-  // What the path from the last fix misses of this one is spread over the way.
-  const double share =
-      sensors::seconds_between(s.before->time, time) / sensors::seconds_between(s.before->time, s.latest.time);
-  const Pose2 arrived = s.before->estimate.pose * s.path.motion(s.before->time, s.latest.time);
-  const Pose2 missed = arrived.inverse() * s.latest.estimate.pose;
-  estimate.pose = estimate.pose * geometry::interpolate({}, missed, share);
-  estimate.covariance = (1.0 - share) * s.before->estimate.covariance + share * s.latest.estimate.covariance;
-  const bool earlier_is_weaker = s.before->belief.pignistic() < s.latest.belief.pignistic();
-  return {estimate, earlier_is_weaker ? s.before->belief : s.latest.belief};
+  if (s.history.empty()) return {s.estimate(), evidence::BinaryMass::vacuous()};
+  return s.history.pose_at(time);
 }
 
 const std::vector<Track>& Localizer::tracks() const { return state_->tracker.tracks(); }

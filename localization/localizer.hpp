@@ -25,17 +25,12 @@ struct LocalizerParams {
   MapMatchingParams matching;
   ObservationParams observations;
   PoseSolverParams solver;
+  LocalizationEvidenceParams evidence;
   LocalizationBeliefParams belief;
   StatusParams status;
   ConstantVelocityParams constant_velocity;
-  int matching_rounds = 3;          ///< map matching and pose in turn: each round knows the pose better
-  double on_plan_sigmas = 3.0;      ///< something this near to a wall of the plan, or
-  double on_plan_m = 0.05;          ///< this near, lies on it;
-  double on_plan_at_most_m = 0.15;  ///< but nothing farther, however unsure the pose is
-  double on_plan_weight = 0.5;      ///< of something that lies on a wall of the plan without being a landmark
-  double unmapped_weight = 0.25;    ///< of something in the plan's free space, against the localization
-  double sight_m = 4.0;             ///< a point of the plan this near should be seen where nothing hides it
-  double doubt_sigma_m = 0.3;       ///< how far the pose may be off where the points in sight are not recognised
+  int matching_rounds = 3;     ///< map matching and pose in turn: each round knows the pose better
+  double doubt_sigma_m = 0.3;  ///< how far the pose may be off where the points in sight are not recognised
   double doubt_sigma_rad = 0.05;
   double contradiction_reliability = 0.5;  ///< of the belief where the pose contradicts its prediction
   double blind_reliability = 0.8;          ///< of the last belief where nothing at all is seen

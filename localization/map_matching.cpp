@@ -137,7 +137,7 @@ const std::vector<MapMatch>& MapMatcher::match_walls(const perception::Scene& sc
       const BinaryMass m = wall_evidence(wall, landmark, pose);
       if (m.yes <= m.no) continue;
       const double at = std::clamp((centroid - landmark.extent.a).dot(landmark.direction), 0.0, landmark.length_m);
-      if (!map_->sees(viewpoint, landmark.extent.a + at * landmark.direction, params_.visibility_margin_m)) continue;
+      if (!map_->shows(viewpoint, landmark.extent.a + at * landmark.direction)) continue;
       evidence_.push_back(m);
       candidates_.push_back(map_->wall_id(w));
     }
@@ -159,7 +159,7 @@ void MapMatcher::list_visible_points(const PoseEstimate& pose, std::span<const t
     const tracking::LandmarkId id = map_->point_id(k);
     if (std::find(taken.begin(), taken.end(), id) != taken.end()) continue;
     const auto type = map_->type_from(point, viewpoint);
-    if (!type || !map_->sees(viewpoint, point.position, params_.visibility_margin_m)) continue;
+    if (!type || !map_->shows(viewpoint, point.position)) continue;
     VisiblePoint visible{
         .id = id, .type = *type, .position_in_base = T_base_map * point.position, .covariance_in_base = {}};
     const auto J = base_coordinates_by_pose(pose.pose, visible.position_in_base);

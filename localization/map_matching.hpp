@@ -50,8 +50,7 @@ struct MapMatchingParams {
                                      .no_zero_until = 3.0,
                                      .no_full_from = 6.0};
   evidence::BinaryMass other_type{.yes = 0.0, .no = 0.3, .unknown = 0.7};  ///< seen under another type than expected
-  double min_margin = 0.05;           ///< of the pignistic probability over the second candidate
-  double visibility_margin_m = 0.08;  ///< a landmark this much behind a wall of the plan still counts as visible
+  double min_margin = 0.05;  ///< of the pignistic probability over the second candidate
 
   // The paper's, absolute (Clerentin et al., sec. 4.2; the breakpoints are ours, docs/equations.md).
   evidence::RampBelief paper_wall_angle_deg{.max_yes = 0.9,
