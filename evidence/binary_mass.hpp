@@ -27,8 +27,6 @@ struct BinaryMass {
 
   [[nodiscard]] constexpr double belief() const { return yes; }
   [[nodiscard]] constexpr double plausibility() const { return yes + unknown; }
-  /// Commonality of {YES} is its plausibility, of {NO} likewise; that of the frame is `unknown`.
-  [[nodiscard]] constexpr double plausibility_of_no() const { return no + unknown; }
   /// Pignistic probability of YES.
   [[nodiscard]] constexpr double pignistic() const { return yes + 0.5 * unknown; }
 

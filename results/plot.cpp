@@ -71,11 +71,6 @@ Plot& Plot::strip(std::vector<double> x, std::vector<Color> colors) {
   return *this;
 }
 
-Plot& Plot::x_limits(double low, double high) {
-  x_limits_ = {low, high};
-  return *this;
-}
-
 Plot& Plot::y_limits(double low, double high) {
   y_limits_ = {low, high};
   return *this;
@@ -112,7 +107,7 @@ Plot::Axes Plot::fit(Point corner, Point opposite) const {
   }
   xs.include(strip_x_);
   Axes axes;
-  std::tie(axes.x0, axes.x1) = x_limits_.empty() ? xs.widened(0.0) : std::pair{x_limits_[0], x_limits_[1]};
+  std::tie(axes.x0, axes.x1) = xs.widened(0.0);
   std::tie(axes.y0, axes.y1) = y_limits_.empty() ? ys.widened(0.06) : std::pair{y_limits_[0], y_limits_[1]};
   if (!(axes.x1 > axes.x0)) axes.x1 = axes.x0 + 1.0;
   if (!(axes.y1 > axes.y0)) axes.y1 = axes.y0 + 1.0;

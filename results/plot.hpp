@@ -32,7 +32,6 @@ class Plot {
   Plot& level(double y, Color color, std::string label = "");
   /// A coloured strip along the foot of the chart from x[i] to x[i + 1] (the last as long as the one before).
   Plot& strip(std::vector<double> x, std::vector<Color> colors);
-  Plot& x_limits(double low, double high);
   Plot& y_limits(double low, double high);
 
   /// Into a box of the canvas, labels included.
@@ -59,7 +58,7 @@ class Plot {
   std::vector<Series> series_;
   std::vector<double> strip_x_;
   std::vector<Color> strip_colors_;
-  std::vector<double> x_limits_, y_limits_;  // empty: from the series
+  std::vector<double> y_limits_;  // empty: from the series
 };
 
 }  // namespace credo::results
