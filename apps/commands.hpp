@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
-// One function for each sub-command, in a file of its own: it adds the sub-command and what it does to `app`. What goes wrong
-// is thrown; main says it and sets the exit status.
+// One function for each sub-command, in a file of its own: it adds the sub-command and what it does to `app`. What goes
+// wrong is thrown; main says it and sets the exit status.
 namespace credo::apps {
 
 void add_demo(CLI::App& app);

@@ -29,8 +29,9 @@ struct DemoOptions {
 void print_map_accuracy(const datasets::Dataset& dataset, const grids::EvidentialGrid& map) {
   if (!dataset.truth_map) return;
   const auto accuracy = evaluation::map_accuracy(map, datasets::read_map(*dataset.truth_map));
-  std::printf("\nMap against truth: %.1f %% of %lld observed cells are right, %.1f %% of the walls in sight were found\n",
-              100.0 * accuracy.accuracy(), static_cast<long long>(accuracy.observed), 100.0 * accuracy.surface_recall());
+  std::printf(
+      "\nMap against truth: %.1f %% of %lld observed cells are right, %.1f %% of the walls in sight were found\n",
+      100.0 * accuracy.accuracy(), static_cast<long long>(accuracy.observed), 100.0 * accuracy.surface_recall());
 }
 
 /// Only what an earlier demo left is replaced.
@@ -39,7 +40,8 @@ void demo(const DemoOptions& options) {
   const fs::path out = options.out, world_file = out / "world.yaml";
   fs::create_directories(out);
   results::write_text(world_file, kDemoWorld);
-  std::printf("1. simulate  %s: a building, a robot with camera, range finder, sonar and odometry\n", (out / "dataset").c_str());
+  std::printf("1. simulate  %s: a building, a robot with camera, range finder, sonar and odometry\n",
+              (out / "dataset").c_str());
   std::fflush(stdout);
   simulate_into(sim::load_world(world_file), options.seed, out / "dataset", true);
   const double simulated = watch.seconds();
@@ -65,11 +67,14 @@ void demo(const DemoOptions& options) {
 }  // namespace
 
 void add_demo(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("demo", "Simulates a building, localizes and maps in it, evaluates and draws.");
-  command->footer("  credo demo                       everything goes to results/demo\n"
-                  "  credo demo --out /tmp/demo --seed 2");
+  CLI::App* command =
+      app.add_subcommand("demo", "Simulates a building, localizes and maps in it, evaluates and draws.");
+  command->footer(
+      "  credo demo                       everything goes to results/demo\n"
+      "  credo demo --out /tmp/demo --seed 2");
   auto options = std::make_shared<DemoOptions>();
-  command->add_option("-o,--out", options->out, "folder for the dataset, the results and the pictures")->capture_default_str();
+  command->add_option("-o,--out", options->out, "folder for the dataset, the results and the pictures")
+      ->capture_default_str();
   command->add_option("--seed", options->seed, "of the simulation")->check(any_seed())->capture_default_str();
   command->callback([options] { demo(*options); });
 }

@@ -20,7 +20,8 @@ std::vector<results::LocalizationRow> read_rows(const fs::path& path) {
 Truth read_truth(const fs::path& path) {
   if (datasets::Dataset::is_dataset(path)) {
     datasets::Dataset dataset = datasets::Dataset::open(path);
-    if (dataset.truth.empty()) throw std::runtime_error(path.string() + ": the dataset has no ground truth (groundtruth0)");
+    if (dataset.truth.empty())
+      throw std::runtime_error(path.string() + ": the dataset has no ground truth (groundtruth0)");
     Truth truth{std::move(dataset.truth), {}};
     if (dataset.events_recorded) truth.events = std::move(dataset.events);
     return truth;

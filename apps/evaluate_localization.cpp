@@ -28,8 +28,9 @@ struct ScoreOptions {
 
 void add_score(CLI::App& evaluate) {
   CLI::App* command = evaluate.add_subcommand("score", "Position, heading and belief of a run against the truth.");
-  command->footer("  credo evaluate score datasets/office results/office\n"
-                  "  credo evaluate score truth.tum results/office --format json");
+  command->footer(
+      "  credo evaluate score datasets/office results/office\n"
+      "  credo evaluate score truth.tum results/office --format json");
   auto o = std::make_shared<ScoreOptions>();
   command->add_option("REF", o->reference, "a dataset folder, or a trajectory file")->required();
   command->add_option("RESULT", o->result, "a results folder, or a localization.csv")->required();
@@ -40,8 +41,10 @@ void add_score(CLI::App& evaluate) {
     std::optional<std::vector<evaluation::Interval>> degraded;
     if (truth.events) degraded = degraded_intervals(*truth.events);
     const auto score = evaluation::score(rows, truth.poses, degraded);
-    if (o->format.json()) print(to_json(score));
-    else std::printf("%s", evaluation::to_text(score).c_str());
+    if (o->format.json())
+      print(to_json(score));
+    else
+      std::printf("%s", evaluation::to_text(score).c_str());
   });
 }
 
@@ -60,19 +63,22 @@ std::vector<double> nees_of(const std::string& reference, const std::string& res
       values.push_back(evaluation::nees(row.localization.estimate, *pose));
     }
   }
-  if (values.empty()) throw std::runtime_error(result + ": no acquisition with an absolute pose and a truth in " + reference);
+  if (values.empty())
+    throw std::runtime_error(result + ": no acquisition with an absolute pose and a truth in " + reference);
   return values;
 }
 
 std::string nees_text(const evaluation::Consistency& c) {
   std::string text = fmt::format(
-      "ANEES of x, y and heading over {} run{} and {} acquisitions (error and covariance in the map frame; 3 expected)\n"
+      "ANEES of x, y and heading over {} run{} and {} acquisitions (error and covariance in the map frame; 3 "
+      "expected)\n"
       "  mean {:.3f}; 95 % bounds of one acquisition over {} run{}: {:.3f} to {:.3f}; inside: {:.1f} %\n",
-      c.runs, c.runs == 1 ? "" : "s", c.anees.size(), c.mean, c.runs, c.runs == 1 ? "" : "s", c.bounds.lower, c.bounds.upper,
-      100.0 * c.share_inside);
+      c.runs, c.runs == 1 ? "" : "s", c.anees.size(), c.mean, c.runs, c.runs == 1 ? "" : "s", c.bounds.lower,
+      c.bounds.upper, 100.0 * c.share_inside);
   if (c.runs == 1) text += "  one run: its acquisitions are correlated, so this is an indication and no verdict\n";
   const char* verdict = c.met() ? "met" : c.mean > 4.0 ? "over-confident" : c.mean < 2.0 ? "pessimistic" : "not met";
-  return text + fmt::format("  {}: asked for are 90 % of the acquisitions inside the bounds and a mean in 2 to 4\n", verdict);
+  return text +
+         fmt::format("  {}: asked for are 90 % of the acquisitions inside the bounds and a mean in 2 to 4\n", verdict);
 }
 
 void add_nees(CLI::App& evaluate) {
@@ -84,13 +90,19 @@ void add_nees(CLI::App& evaluate) {
   command->add_option("REF RESULT ...", o->paths, "dataset (or trajectory) and results, once for each run")->required();
   add_format_option(*command, o->format);
   command->callback([o] {
-    if (o->paths.size() % 2 != 0) throw CLI::ValidationError("nees", "expected REF RESULT pairs, found an odd number of paths");
+    if (o->paths.size() % 2 != 0)
+      throw CLI::ValidationError("nees", "expected REF RESULT pairs, found an odd number of paths");
     std::vector<std::vector<double>> runs;
     for (std::size_t i = 0; i < o->paths.size(); i += 2) runs.push_back(nees_of(o->paths[i], o->paths[i + 1]));
     const evaluation::Consistency c = evaluation::consistency(runs);
     if (o->format.json()) {
-      print(ordered_json{{"runs", c.runs}, {"mean", c.mean}, {"lower", c.bounds.lower}, {"upper", c.bounds.upper},
-                         {"share_inside", c.share_inside}, {"met", c.met()}, {"anees", c.anees}});
+      print(ordered_json{{"runs", c.runs},
+                         {"mean", c.mean},
+                         {"lower", c.bounds.lower},
+                         {"upper", c.bounds.upper},
+                         {"share_inside", c.share_inside},
+                         {"met", c.met()},
+                         {"anees", c.anees}});
     } else {
       std::printf("%s", nees_text(c).c_str());
     }

@@ -22,14 +22,16 @@ namespace {
 using evaluation::PoseRelation;
 using nlohmann::ordered_json;
 
-const std::map<std::string, PoseRelation> kRelations{
-    {"trans_part", PoseRelation::kTranslationPart}, {"rot_part", PoseRelation::kRotationPart},
-    {"angle_deg", PoseRelation::kAngleDegrees},     {"angle_rad", PoseRelation::kAngleRadians},
-    {"full", PoseRelation::kFull},                  {"point_distance", PoseRelation::kPointDistance}};
+const std::map<std::string, PoseRelation> kRelations{{"trans_part", PoseRelation::kTranslationPart},
+                                                     {"rot_part", PoseRelation::kRotationPart},
+                                                     {"angle_deg", PoseRelation::kAngleDegrees},
+                                                     {"angle_rad", PoseRelation::kAngleRadians},
+                                                     {"full", PoseRelation::kFull},
+                                                     {"point_distance", PoseRelation::kPointDistance}};
 const std::map<std::string, evaluation::DeltaUnit> kUnits{{"f", evaluation::DeltaUnit::kFrames},
-                                                         {"m", evaluation::DeltaUnit::kMetres},
-                                                         {"d", evaluation::DeltaUnit::kDegrees},
-                                                         {"r", evaluation::DeltaUnit::kRadians}};
+                                                          {"m", evaluation::DeltaUnit::kMetres},
+                                                          {"d", evaluation::DeltaUnit::kDegrees},
+                                                          {"r", evaluation::DeltaUnit::kRadians}};
 
 constexpr double kLeastDelta = 1e-6;  // of whatever unit
 
@@ -49,14 +51,17 @@ void add_pair_options(CLI::App& command, PairOptions& o) {
   command.add_option("REF", o.reference, "the truth: TUM, KITTI, EuRoC csv, or a dataset folder")->required();
   command.add_option("RESULT", o.result, "the estimate: the same, or a results folder")->required();
   command.add_option("-r,--pose_relation", o.relation, "what of the error pose counts")
-      ->check(CLI::IsMember(kRelations))->capture_default_str();
+      ->check(CLI::IsMember(kRelations))
+      ->capture_default_str();
   command.add_flag("-a,--align", o.alignment.align, "Umeyama alignment (in the plane, where the data are planar)");
   command.add_flag("-s,--correct_scale", o.alignment.correct_scale, "correct the scale, too");
   command.add_flag("--align_origin", o.alignment.align_origin, "make the first poses agree");
   command.add_option("--n_to_align", o.alignment.n_to_align, "poses for the alignment; -1: all")
-      ->check(number_in(-1, std::numeric_limits<int>::max()))->capture_default_str();
+      ->check(number_in(-1, std::numeric_limits<int>::max()))
+      ->capture_default_str();
   command.add_option("--t_max_diff", o.association.t_max_diff_s, "largest difference in time of a match [s]")
-      ->check(number_in(0.0, evaluation::AssociationParams::kLargest_s))->capture_default_str();
+      ->check(number_in(0.0, evaluation::AssociationParams::kLargest_s))
+      ->capture_default_str();
   command.add_option("--t_offset", o.association.t_offset_s, "added to the times of the result [s]")
       ->check(number_in(-evaluation::AssociationParams::kLargest_s, evaluation::AssociationParams::kLargest_s))
       ->capture_default_str();
@@ -66,7 +71,8 @@ void add_pair_options(CLI::App& command, PairOptions& o) {
 }
 
 std::map<std::string, double> by_name(const evaluation::Statistics& s) {
-  return {{"max", s.max}, {"mean", s.mean}, {"median", s.median}, {"min", s.min}, {"rmse", s.rmse}, {"sse", s.sse}, {"std", s.std}};
+  return {{"max", s.max},   {"mean", s.mean}, {"median", s.median}, {"min", s.min},
+          {"rmse", s.rmse}, {"sse", s.sse},   {"std", s.std}};
 }
 
 void apply_gate(const std::string& gate, const evaluation::Statistics& statistics) {
@@ -76,7 +82,8 @@ void apply_gate(const std::string& gate, const evaluation::Statistics& statistic
   const auto found = all.find(gate.substr(0, cut));
   double limit = 0.0;
   if (found == all.end() || !parse(gate.substr(cut + 1), limit) || !std::isfinite(limit)) {
-    throw std::runtime_error("--fail_above " + gate + ": expected STATISTIC=VALUE with one of max, mean, median, min, rmse, sse, "
+    throw std::runtime_error("--fail_above " + gate +
+                             ": expected STATISTIC=VALUE with one of max, mean, median, min, rmse, sse, "
                              "std and a finite number");
   }
   if (!(found->second <= limit)) {
@@ -151,10 +158,14 @@ void add_rpe(CLI::App& evaluate) {
   auto o = std::make_shared<RpeOptions>();
   add_pair_options(*command, *o);
   command->add_option("-d,--delta", o->params.delta, "distance of the two poses of a pair")
-      ->check(number_in(kLeastDelta, evaluation::RelativeErrorParams::kLargestDelta))->capture_default_str();
-  command->add_option("-u,--delta_unit", o->unit, "frames, metres, degrees or radians")->check(CLI::IsMember(kUnits))->capture_default_str();
+      ->check(number_in(kLeastDelta, evaluation::RelativeErrorParams::kLargestDelta))
+      ->capture_default_str();
+  command->add_option("-u,--delta_unit", o->unit, "frames, metres, degrees or radians")
+      ->check(CLI::IsMember(kUnits))
+      ->capture_default_str();
   command->add_option("-t,--delta_tol", o->params.relative_tolerance, "of delta, with --all_pairs")
-      ->check(number_in(0.0, 1.0))->capture_default_str();
+      ->check(number_in(0.0, 1.0))
+      ->capture_default_str();
   command->add_flag("--all_pairs", o->params.all_pairs, "every start, not only pairs that follow each other");
   command->add_flag("--pairs_from_reference", o->params.pairs_from_reference, "choose the pairs on the reference");
   command->callback([o] {
@@ -174,10 +185,14 @@ struct TrajOptions {
 
 ordered_json describe(const evaluation::Trajectory& trajectory) {
   const evaluation::TrajectoryFacts f = evaluation::facts(trajectory);
-  return {{"name", trajectory.name},   {"poses", f.poses},
-          {"length_m", f.length_m},    {"duration_s", f.duration_s},
-          {"planar", evaluation::is_planar(trajectory)}, {"times_going_back", f.times_going_back},
-          {"equal_times", f.equal_times}, {"longest_gap_s", f.longest_gap_s}};
+  return {{"name", trajectory.name},
+          {"poses", f.poses},
+          {"length_m", f.length_m},
+          {"duration_s", f.duration_s},
+          {"planar", evaluation::is_planar(trajectory)},
+          {"times_going_back", f.times_going_back},
+          {"equal_times", f.equal_times},
+          {"longest_gap_s", f.longest_gap_s}};
 }
 
 void run_traj(const TrajOptions& o) {
@@ -197,13 +212,17 @@ void run_traj(const TrajOptions& o) {
   }
   for (const ordered_json& t : all) {
     std::printf("%s: %d poses, %.3f m, %.3f s, %s", t["name"].get<std::string>().c_str(), t["poses"].get<int>(),
-                t["length_m"].get<double>(), t["duration_s"].get<double>(), t["planar"].get<bool>() ? "planar" : "spatial");
+                t["length_m"].get<double>(), t["duration_s"].get<double>(),
+                t["planar"].get<bool>() ? "planar" : "spatial");
     if (t.contains("ape_rmse_m")) {
-      std::printf(", matched %d, APE rmse %.6f m", t["matched_with_reference"].get<int>(), t["ape_rmse_m"].get<double>());
+      std::printf(", matched %d, APE rmse %.6f m", t["matched_with_reference"].get<int>(),
+                  t["ape_rmse_m"].get<double>());
     }
     const int back = t["times_going_back"].get<int>(), equal = t["equal_times"].get<int>();
     std::printf("\n  longest gap %.3f s; %s\n", t["longest_gap_s"].get<double>(),
-                back + equal == 0 ? "times grow" : (std::to_string(back) + " times go back, " + std::to_string(equal) + " are equal").c_str());
+                back + equal == 0
+                    ? "times grow"
+                    : (std::to_string(back) + " times go back, " + std::to_string(equal) + " are equal").c_str());
   }
 }
 
@@ -214,7 +233,8 @@ void add_traj(CLI::App& evaluate) {
   command->add_option("PATHS", o->paths, "trajectories, dataset or results folders")->required();
   command->add_option("--ref", o->reference, "a reference to compare each with");
   command->add_option("--t_max_diff", o->association.t_max_diff_s, "largest difference in time of a match [s]")
-      ->check(number_in(0.0, evaluation::AssociationParams::kLargest_s))->capture_default_str();
+      ->check(number_in(0.0, evaluation::AssociationParams::kLargest_s))
+      ->capture_default_str();
   add_format_option(*command, o->format);
   command->callback([o] { run_traj(*o); });
 }

@@ -25,9 +25,12 @@ using nlohmann::ordered_json;
 
 template <typename Row>
 ordered_json rows(const std::string& name, const std::vector<Row>& readings) {
-  const double duration = readings.empty() ? 0.0 : sensors::seconds_between(readings.front().time, readings.back().time);
+  const double duration =
+      readings.empty() ? 0.0 : sensors::seconds_between(readings.front().time, readings.back().time);
   const double n = static_cast<double>(readings.size());
-  return {{"name", name}, {"rows", readings.size()}, {"duration_s", duration},
+  return {{"name", name},
+          {"rows", readings.size()},
+          {"duration_s", duration},
           {"rate_hz", duration > 0.0 ? (n - 1.0) / duration : 0.0}};
 }
 
@@ -48,8 +51,11 @@ ordered_json dataset_info(const fs::path& folder) {
   ordered_json faults = ordered_json::array();
   for (const datasets::SensorLog& log : d.log) {
     if (log.below_range_min + log.above_range_max + log.negative + log.rows_without_value == 0) continue;
-    faults.push_back({{"name", log.sensor}, {"below_range_min", log.below_range_min}, {"above_range_max", log.above_range_max},
-                      {"negative", log.negative}, {"rows_without_value", log.rows_without_value}});
+    faults.push_back({{"name", log.sensor},
+                      {"below_range_min", log.below_range_min},
+                      {"above_range_max", log.above_range_max},
+                      {"negative", log.negative},
+                      {"rows_without_value", log.rows_without_value}});
   }
   return {{"kind", "dataset"},
           {"name", d.header.name},
@@ -76,7 +82,10 @@ ordered_json carmen_info(const fs::path& file) {
   }
   for (std::size_t i = 0; i < log.sonar.size(); ++i) all.push_back(rows("SONAR", log.sonar[i]));
   all.push_back(rows("odometry", log.odometry));
-  return {{"kind", "CARMEN log"}, {"name", file.filename().string()}, {"times_usable", log.times_usable}, {"sensors", all},
+  return {{"kind", "CARMEN log"},
+          {"name", file.filename().string()},
+          {"times_usable", log.times_usable},
+          {"sensors", all},
           {"remarks", log.remarks}};
 }
 
@@ -87,8 +96,11 @@ ordered_json results_info(const fs::path& folder) {
     const char* status = localization::to_string(row.localization.status);
     statuses[status] = statuses.value(status, 0) + 1;
   }
-  return {{"kind", "results"}, {"name", folder.lexically_normal().filename().string()}, {"acquisitions", table.size()},
-          {"status", statuses}, {"map", fs::exists(folder / "map.yaml")}};
+  return {{"kind", "results"},
+          {"name", folder.lexically_normal().filename().string()},
+          {"acquisitions", table.size()},
+          {"status", statuses},
+          {"map", fs::exists(folder / "map.yaml")}};
 }
 
 ordered_json map_info(const fs::path& yaml) {
@@ -99,15 +111,20 @@ ordered_json map_info(const fs::path& yaml) {
     unknown += cell < 0 ? 1.0 : 0.0;
   }
   const double n = static_cast<double>(map.cells.size());
-  return {{"kind", "map"}, {"name", yaml.filename().string()}, {"width", map.width}, {"height", map.height},
-          {"resolution_m", map.resolution_m}, {"occupied_share", occupied / n}, {"unknown_share", unknown / n}};
+  return {{"kind", "map"},
+          {"name", yaml.filename().string()},
+          {"width", map.width},
+          {"height", map.height},
+          {"resolution_m", map.resolution_m},
+          {"occupied_share", occupied / n},
+          {"unknown_share", unknown / n}};
 }
 
 ordered_json trajectory_info(const fs::path& file) {
   const evaluation::Trajectory trajectory = evaluation::read_trajectory(file);
   const evaluation::TrajectoryFacts f = evaluation::facts(trajectory);
-  return {{"kind", "trajectory"}, {"name", file.filename().string()}, {"poses", f.poses}, {"length_m", f.length_m},
-          {"duration_s", f.duration_s}, {"timed", trajectory.timed}};
+  return {{"kind", "trajectory"},   {"name", file.filename().string()}, {"poses", f.poses},
+          {"length_m", f.length_m}, {"duration_s", f.duration_s},       {"timed", trajectory.timed}};
 }
 
 ordered_json info(const fs::path& path) {
@@ -116,7 +133,8 @@ ordered_json info(const fs::path& path) {
     if (datasets::Dataset::is_dataset(path)) return dataset_info(path);
     if (fs::exists(path / "localization.csv")) return results_info(path);
     if (fs::exists(path / "map.yaml")) return map_info(path / "map.yaml");
-    throw std::runtime_error(path.string() + ": neither a dataset (dataset.yaml) nor results (localization.csv, map.yaml)");
+    throw std::runtime_error(path.string() +
+                             ": neither a dataset (dataset.yaml) nor results (localization.csv, map.yaml)");
   }
   if (path.extension() == ".yaml") return map_info(path);
   if (datasets::is_carmen(path)) return carmen_info(path);
@@ -130,8 +148,10 @@ std::string one_line(const ordered_json& value) {
   if (!value.is_object()) return value.dump();
   std::string text;
   for (const auto& [key, part] : value.items()) {
-    if (key == "name") text.insert(0, one_line(part));
-    else text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key, one_line(part));
+    if (key == "name")
+      text.insert(0, one_line(part));
+    else
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key, one_line(part));
   }
   return text;
 }
@@ -152,8 +172,9 @@ void print_text(const ordered_json& all) {
 
 void add_info(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "What is in a dataset, a log, a result, a map or a trajectory.");
-  command->footer("  credo info datasets/office\n"
-                  "  credo info intel.log.gz --format json");
+  command->footer(
+      "  credo info datasets/office\n"
+      "  credo info intel.log.gz --format json");
   struct Options {
     std::string path;
     OutputFormat format;
@@ -163,8 +184,10 @@ void add_info(CLI::App& app) {
   add_format_option(*command, o->format);
   command->callback([o] {
     const ordered_json all = info(o->path);
-    if (o->format.json()) print(all);
-    else print_text(all);
+    if (o->format.json())
+      print(all);
+    else
+      print_text(all);
   });
 }
 

@@ -69,7 +69,8 @@ bool wants(const MapOptions& o, const char* sensor) {
 
 std::vector<datasets::TimedPose> given_poses(const std::string& file) {
   const datasets::Trajectory trajectory = datasets::read_trajectory(file);
-  if (!trajectory.has_times) throw std::runtime_error(file + ": these poses have no times: readings cannot be placed with them");
+  if (!trajectory.has_times)
+    throw std::runtime_error(file + ": these poses have no times: readings cannot be placed with them");
   return trajectory.poses;
 }
 
@@ -78,11 +79,15 @@ std::vector<Part> parts_of_dataset(const MapOptions& o, std::string& poses) {
   for (const std::string& remark : dataset.remarks) say_warning(remark);
   const bool truth = o.poses.empty() || o.poses == "groundtruth";
   if (truth && dataset.truth.empty()) {
-    throw std::runtime_error(o.source + ": the dataset has no ground truth: give the poses with --poses FILE (for example the "
+    throw std::runtime_error(o.source +
+                             ": the dataset has no ground truth: give the poses with --poses FILE (for example the "
                              "trajectory.tum of credo run)");
   }
   poses = truth ? "ground truth" : o.poses;
-  Part part{.path = path_of(truth ? dataset.truth : given_poses(o.poses)), .rig = dataset.header.rig, .scans = {}, .sweeps = {}};
+  Part part{.path = path_of(truth ? dataset.truth : given_poses(o.poses)),
+            .rig = dataset.header.rig,
+            .scans = {},
+            .sweeps = {}};
   if (wants(o, "range")) part.scans = joined(dataset.scans);
   if (wants(o, "sonar")) part.sweeps = joined(dataset.sonar);
   std::vector<Part> parts;
@@ -97,7 +102,10 @@ std::vector<Part> parts_of_carmen(const MapOptions& o, std::string& poses) {
   std::vector<Part> parts;
   if (!o.poses.empty()) {
     poses = o.poses;
-    parts.push_back({.path = path_of(given_poses(o.poses)), .rig = log.rig, .scans = joined(log.scans), .sweeps = joined(log.sonar)});
+    parts.push_back({.path = path_of(given_poses(o.poses)),
+                     .rig = log.rig,
+                     .scans = joined(log.scans),
+                     .sweeps = joined(log.sonar)});
     return parts;
   }
   poses = "the poses of the log";
@@ -107,7 +115,8 @@ std::vector<Part> parts_of_carmen(const MapOptions& o, std::string& poses) {
     part.rig.range_finders[i].T_base_sensor = {};
     parts.push_back(std::move(part));
   }
-  if (parts.empty()) throw std::runtime_error(o.source + ": no scan of this log carries a pose: give them with --poses FILE");
+  if (parts.empty())
+    throw std::runtime_error(o.source + ": no scan of this log carries a pose: give them with --poses FILE");
   return parts;
 }
 
@@ -120,7 +129,8 @@ mapping::TrajectoryMap build(const MapOptions& o, const std::vector<Part>& parts
       progress.update((static_cast<double>(i) + share) / static_cast<double>(parts.size()));
     };
     const Part& part = parts[i];
-    const mapping::TrajectoryMap one = mapping::map_along(part.path, part.rig, part.scans, part.sweeps, o.params, report);
+    const mapping::TrajectoryMap one =
+        mapping::map_along(part.path, part.rig, part.scans, part.sweeps, o.params, report);
     map.grid.merge(one.grid);
     map.counts += one.counts;
     map.without_pose += one.without_pose;
@@ -139,7 +149,9 @@ struct TimeSpan {
     first = std::min(first, rows.front().time);
     last = std::max(last, rows.back().time);
   }
-  [[nodiscard]] std::string text() const { return datasets::to_seconds(first) + " to " + datasets::to_seconds(last) + " s"; }
+  [[nodiscard]] std::string text() const {
+    return datasets::to_seconds(first) + " to " + datasets::to_seconds(last) + " s";
+  }
 };
 
 /// Readings that cannot be placed are left out, and that is said; poses that place none of them are a mistake.
@@ -154,14 +166,14 @@ void check_overlap(const MapOptions& o, const std::vector<Part>& parts, const ma
     path.cover(part.path.rows());
   }
   const std::string message = std::to_string(map.without_pose) + " of " + std::to_string(all) +
-                              " readings have no pose near in time: the readings are from " + readings.text() + ", " + poses +
-                              " from " + path.text();
+                              " readings have no pose near in time: the readings are from " + readings.text() + ", " +
+                              poses + " from " + path.text();
   if (placed == 0) throw std::runtime_error(o.source + ": " + message + "; are they of the same drive?");
   if (10 * map.without_pose > all) say_warning(message);
 }
 
-void write(const MapOptions& o, const mapping::TrajectoryMap& map, const std::vector<Part>& parts, const std::string& poses,
-           const fs::path& folder, const std::optional<PictureFolder>& pictures) {
+void write(const MapOptions& o, const mapping::TrajectoryMap& map, const std::vector<Part>& parts,
+           const std::string& poses, const fs::path& folder, const std::optional<PictureFolder>& pictures) {
   datasets::write_map(datasets::to_occupancy(map.grid), folder / "map.yaml");
   const auto channels = o.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized;
   results::write_belief_tiff(results::belief_image(map.grid, channels), folder / "map_belief.tiff");
@@ -183,7 +195,8 @@ std::vector<Part> parts_of(const MapOptions& o, std::string& poses) {
 void execute(MapOptions o) {
   std::string poses;
   const std::vector<Part> parts = parts_of(o, poses);
-  if (o.out.empty()) o.out = (fs::path("results") / (fs::path(o.source).lexically_normal().stem().string() + "_map")).string();
+  if (o.out.empty())
+    o.out = (fs::path("results") / (fs::path(o.source).lexically_normal().stem().string() + "_map")).string();
   const Interruptible interruptible;
   datasets::StagedFolder folder = results::stage_results(o.out, o.force);
   std::optional<PictureFolder> pictures;
@@ -195,17 +208,23 @@ void execute(MapOptions o) {
   folder.commit();
   const grids::CellBox box = map.grid.bounding_box();
   if (o.format.json()) {
-    print(nlohmann::ordered_json{{"map", o.out}, {"poses", poses}, {"scans", map.counts.scans},
-                                 {"sonar_sweeps", map.counts.sweeps}, {"echoes", map.counts.echoes},
-                                 {"no_returns", map.counts.no_returns}, {"without_pose", map.without_pose},
-                                 {"width", box.width}, {"height", box.height},
+    print(nlohmann::ordered_json{{"map", o.out},
+                                 {"poses", poses},
+                                 {"scans", map.counts.scans},
+                                 {"sonar_sweeps", map.counts.sweeps},
+                                 {"echoes", map.counts.echoes},
+                                 {"no_returns", map.counts.no_returns},
+                                 {"without_pose", map.without_pose},
+                                 {"width", box.width},
+                                 {"height", box.height},
                                  {"resolution_m", o.params.mapper.georeference.resolution_m}});
     return;
   }
   std::printf("mapped %lld scans and %lld sonar sweeps with %s; %lld readings had no pose near in time\n",
               static_cast<long long>(map.counts.scans), static_cast<long long>(map.counts.sweeps), poses.c_str(),
               static_cast<long long>(map.without_pose));
-  std::printf("map: %s (%d x %d cells of %g m)\n", o.out.c_str(), box.width, box.height, o.params.mapper.georeference.resolution_m);
+  std::printf("map: %s (%d x %d cells of %g m)\n", o.out.c_str(), box.width, box.height,
+              o.params.mapper.georeference.resolution_m);
   if (!o.pictures.empty()) std::printf("picture: %s\n", (fs::path(o.pictures) / "map.png").c_str());
 }
 
@@ -220,13 +239,20 @@ void add_map(CLI::App& app) {
   auto o = std::make_shared<MapOptions>();
   command->add_option("SOURCE", o->source, "a dataset folder, or a CARMEN log (plain or gzipped)")->required();
   command->add_option("-o,--out", o->out, "folder for the map; default results/NAME_map");
-  command->add_option("--poses", o->poses, "a trajectory file, or groundtruth (default: ground truth; of a log, its own poses)");
+  command->add_option("--poses", o->poses,
+                      "a trajectory file, or groundtruth (default: ground truth; of a log, its own poses)");
   command->add_option("--sensors", o->sensors, "what to map with: range, sonar or both")
-      ->delimiter(',')->check(CLI::IsMember({"range", "sonar"}))->capture_default_str();
+      ->delimiter(',')
+      ->check(CLI::IsMember({"range", "sonar"}))
+      ->capture_default_str();
   command->add_option("--resolution", o->params.mapper.georeference.resolution_m, "side of a cell [m]")
-      ->check(any_resolution())->capture_default_str();
-  command->add_option("--readout", o->readout, "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
-      ->check(CLI::IsMember({"normalized", "raw"}))->capture_default_str();
+      ->check(any_resolution())
+      ->capture_default_str();
+  command
+      ->add_option("--readout", o->readout,
+                   "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
+      ->check(CLI::IsMember({"normalized", "raw"}))
+      ->capture_default_str();
   command->add_option("--pictures", o->pictures, "folder for map.png");
   command->add_flag("-f,--force", o->force, "replace a map that is already there");
   add_format_option(*command, o->format);

@@ -93,14 +93,20 @@ void add_run(CLI::App& app) {
   command->add_option("DATASET", options->dataset, "folder with a dataset.yaml")->required();
   command->add_option("-o,--out", options->out, "folder for the results; default results/NAME");
   command->add_option("--method", options->method, "the paper's method with its absolute breakpoints, or the default")
-      ->check(CLI::IsMember({"default", "paper"}))->capture_default_str();
+      ->check(CLI::IsMember({"default", "paper"}))
+      ->capture_default_str();
   command->add_option("--pictures", options->pictures, "folder for pictures of some acquisitions and of the whole run");
   command->add_option("--moments", options->picture_moments, "how many acquisitions are drawn")
-      ->check(number_in(0, 100'000))->capture_default_str();
+      ->check(number_in(0, 100'000))
+      ->capture_default_str();
   command->add_option("--resolution", options->resolution_m, "side of a map cell [m]")
-      ->check(any_resolution())->capture_default_str();
-  command->add_option("--readout", options->readout, "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
-      ->check(CLI::IsMember({"normalized", "raw"}))->capture_default_str();
+      ->check(any_resolution())
+      ->capture_default_str();
+  command
+      ->add_option("--readout", options->readout,
+                   "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
+      ->check(CLI::IsMember({"normalized", "raw"}))
+      ->capture_default_str();
   command->add_flag("-f,--force", options->force, "replace results that are already there");
   add_format_option(*command, *format);
   command->callback([options, format] { execute(*options, *format); });

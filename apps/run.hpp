@@ -13,7 +13,7 @@ namespace credo::apps {
 
 struct RunOptions {
   std::string dataset;
-  std::string out;       ///< empty: results/NAME
+  std::string out;  ///< empty: results/NAME
   std::string method = "default";
   std::string pictures;  ///< empty: none
   int picture_moments = 6;
@@ -24,6 +24,7 @@ struct RunOptions {
 
 /// `credo run` without what it prints: writes the results (and pictures) and returns what came out.
 /// \param out  where the results went
-[[nodiscard]] Outcome run_and_write(const datasets::Dataset& dataset, const RunOptions& options, std::filesystem::path& out);
+[[nodiscard]] Outcome run_and_write(const datasets::Dataset& dataset, const RunOptions& options,
+                                    std::filesystem::path& out);
 
 }  // namespace credo::apps

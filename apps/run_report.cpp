@@ -40,20 +40,25 @@ Means means(const results::History& history) {
 /// What was missing or left out, sensor by sensor; empty where nothing was.
 std::string degradation_text(const Outcome& outcome, const datasets::Dataset& dataset) {
   std::string text;
-  if (outcome.without_image > 0) text += fmt::format("degraded: {} acquisitions without a usable image\n", outcome.without_image);
-  if (outcome.without_scan > 0) text += fmt::format("degraded: {} acquisitions without a usable scan\n", outcome.without_scan);
+  if (outcome.without_image > 0)
+    text += fmt::format("degraded: {} acquisitions without a usable image\n", outcome.without_image);
+  if (outcome.without_scan > 0)
+    text += fmt::format("degraded: {} acquisitions without a usable scan\n", outcome.without_scan);
   for (const datasets::SensorLog& log : dataset.log) {
     const std::size_t readings = log.below_range_min + log.above_range_max + log.negative;
-    if (readings > 0) text += fmt::format("{}: {} readings outside of its range were taken as no measurement\n", log.sensor, readings);
-    if (log.rows_without_value > 0) text += fmt::format("{}: {} rows hold no measurement\n", log.sensor, log.rows_without_value);
+    if (readings > 0)
+      text += fmt::format("{}: {} readings outside of its range were taken as no measurement\n", log.sensor, readings);
+    if (log.rows_without_value > 0)
+      text += fmt::format("{}: {} rows hold no measurement\n", log.sensor, log.rows_without_value);
   }
   return text;
 }
 
 std::string conflict_text(const results::ConflictStatistics& conflict) {
   if (conflict.segments() == 0) return "";
-  std::string text = fmt::format("Conflict of the five criteria over {} segments: mean {:.3f} (Clerentin et al. report 0.13)\n",
-                                 conflict.segments(), conflict.mean());
+  std::string text =
+      fmt::format("Conflict of the five criteria over {} segments: mean {:.3f} (Clerentin et al. report 0.13)\n",
+                  conflict.segments(), conflict.mean());
   constexpr auto names = results::ConflictStatistics::kCriteria;
   text += fmt::format("  {:<12}", "per pair");
   for (std::size_t j = 1; j < names.size(); ++j) text += fmt::format("{:>13}", names[j]);
@@ -68,9 +73,7 @@ std::string conflict_text(const results::ConflictStatistics& conflict) {
   return text;
 }
 
-ordered_json finite(double value) {
-  return value - value == 0.0 ? ordered_json(value) : ordered_json(nullptr);
-}
+ordered_json finite(double value) { return value - value == 0.0 ? ordered_json(value) : ordered_json(nullptr); }
 
 ordered_json optional(const std::optional<double>& value) { return value ? finite(*value) : ordered_json(nullptr); }
 
@@ -116,18 +119,22 @@ std::string to_text(const Outcome& outcome, const datasets::Dataset& dataset) {
     text += fmt::format("{}{} {}", separator, count, status);
     separator = ", ";
   }
-  text += fmt::format("\nper acquisition: {:.1f} primitives seen, {:.1f} matched to the plan, {:.1f} tracks, {:.2f} ms\n",
-                      mean.detected, mean.matched, mean.tracked, 1e3 * outcome.seconds_per_acquisition);
-  text += fmt::format("mapped: {} sonar sweeps, {} scans; {} refused as their pose was too unsure\n", outcome.mapped.sweeps,
-                      outcome.mapped.scans, outcome.mapped.refused);
+  text +=
+      fmt::format("\nper acquisition: {:.1f} primitives seen, {:.1f} matched to the plan, {:.1f} tracks, {:.2f} ms\n",
+                  mean.detected, mean.matched, mean.tracked, 1e3 * outcome.seconds_per_acquisition);
+  text += fmt::format("mapped: {} sonar sweeps, {} scans; {} refused as their pose was too unsure\n",
+                      outcome.mapped.sweeps, outcome.mapped.scans, outcome.mapped.refused);
   text += degradation_text(outcome, dataset);
-  if (!dataset.header.floor_plan) text += "no floor plan: poses are relative to the start, status initializing\n";
-  else if (!dataset.header.initial_pose) text += "no initial pose: poses are relative to the start, status initializing\n";
+  if (!dataset.header.floor_plan)
+    text += "no floor plan: poses are relative to the start, status initializing\n";
+  else if (!dataset.header.initial_pose)
+    text += "no initial pose: poses are relative to the start, status initializing\n";
   text += "\n" + conflict_text(outcome.conflict);
   if (const auto score = score_of(outcome, dataset)) {
     text += "\n" + evaluation::to_text(*score);
-    text += fmt::format("  {:<24} {:>12}   of {} matches: predicted from the true pose it is off by > 5 sigma and > 1 deg or 0.1 m\n",
-                        "wrong match", fmt::format("{:.1f} %", 100.0 * outcome.matches.wrong_share()), outcome.matches.matches);
+    text += fmt::format(
+        "  {:<24} {:>12}   of {} matches: predicted from the true pose it is off by > 5 sigma and > 1 deg or 0.1 m\n",
+        "wrong match", fmt::format("{:.1f} %", 100.0 * outcome.matches.wrong_share()), outcome.matches.matches);
   }
   return text;
 }
@@ -169,19 +176,19 @@ ordered_json to_json(const Outcome& outcome, const datasets::Dataset& dataset) {
       pairs.push_back({{"criteria", {names[i], names[j]}}, {"mean_conflict", outcome.conflict.of_pair(i, j)}});
     }
   }
-  ordered_json result{{"dataset", dataset.header.name},
-                      {"acquisitions", outcome.history.size()},
-                      {"status", status_counts(outcome.history)},
-                      {"without_image", outcome.without_image},
-                      {"without_scan", outcome.without_scan},
-                      {"mean_detected", mean.detected},
-                      {"mean_matched", mean.matched},
-                      {"mean_tracked", mean.tracked},
-                      {"milliseconds_per_acquisition", 1e3 * outcome.seconds_per_acquisition},
-                      {"mapped", {{"sonar_sweeps", outcome.mapped.sweeps}, {"scans", outcome.mapped.scans},
-                                  {"refused", outcome.mapped.refused}}},
-                      {"conflict", {{"segments", outcome.conflict.segments()}, {"mean", outcome.conflict.mean()},
-                                    {"pairs", pairs}}}};
+  ordered_json result{
+      {"dataset", dataset.header.name},
+      {"acquisitions", outcome.history.size()},
+      {"status", status_counts(outcome.history)},
+      {"without_image", outcome.without_image},
+      {"without_scan", outcome.without_scan},
+      {"mean_detected", mean.detected},
+      {"mean_matched", mean.matched},
+      {"mean_tracked", mean.tracked},
+      {"milliseconds_per_acquisition", 1e3 * outcome.seconds_per_acquisition},
+      {"mapped",
+       {{"sonar_sweeps", outcome.mapped.sweeps}, {"scans", outcome.mapped.scans}, {"refused", outcome.mapped.refused}}},
+      {"conflict", {{"segments", outcome.conflict.segments()}, {"mean", outcome.conflict.mean()}, {"pairs", pairs}}}};
   const auto score = score_of(outcome, dataset);
   result["matches"] = {{"count", outcome.matches.matches}, {"wrong", outcome.matches.wrong}};
   result["score"] = score ? to_json(*score) : ordered_json(nullptr);

@@ -84,14 +84,20 @@ sim::Sink sink_into(datasets::DatasetWriter& writer, Progress& progress) {
           .scan = [&](const sensors::RangeScan& scan) { writer.add_scan(scan); },
           .sonar = [&](const sensors::SonarSweep& sweep) { writer.add_sonar(sweep); },
           .odometry = [&](const sensors::OdometryReading& reading) { writer.add_odometry(reading); },
-          .truth = [&](sensors::Timestamp time, const geometry::Pose2& pose) { writer.add_truth({time, pose}); },
+          .truth =
+              [&](sensors::Timestamp time, const geometry::Pose2& pose) {
+                writer.add_truth({time, pose});
+              },
           .verticals =
               [&](sensors::Timestamp time, std::span<const sim::TrueVertical> verticals) {
                 for (const sim::TrueVertical& v : verticals) {
                   writer.add_true_vertical({time, v.azimuth_rad, v.visible_share, v.contrast});
                 }
               },
-          .event = [&](sensors::Timestamp time, std::string_view name) { writer.add_event({time, std::string(name)}); },
+          .event =
+              [&](sensors::Timestamp time, std::string_view name) {
+                writer.add_event({time, std::string(name)});
+              },
           .progress =
               [&](double share) {
                 Interruptible::check();
@@ -123,10 +129,12 @@ void add_simulate(CLI::App& app) {
       "  credo simulate office --out datasets/office              a world that comes with credo\n"
       "  credo simulate my_world.yaml --out datasets/mine --seed 7");
   auto options = std::make_shared<SimulateOptions>();
-  command->add_option("WORLD", options->world, "a world file (YAML), or the name of a world that comes with credo")->required();
+  command->add_option("WORLD", options->world, "a world file (YAML), or the name of a world that comes with credo")
+      ->required();
   command->add_option("-o,--out", options->out, "folder for the dataset")->required();
   command->add_option("--seed", options->seed, "of all that is random; the same seed gives the same bytes")
-      ->check(any_seed())->capture_default_str();
+      ->check(any_seed())
+      ->capture_default_str();
   command->add_flag("-f,--force", options->force, "replace a dataset that is already there");
   command->callback([options] {
     simulate_into(sim::load_world(find_world(options->world)), options->seed, options->out, options->force);

@@ -28,7 +28,8 @@ void Progress::update(double share) {
   constexpr int kWidth = 30;
   const int full = permille * kWidth / 1000;
   const double left = share > 0.02 ? elapsed * (1.0 - share) / share : 0.0;
-  std::fprintf(stderr, "\r%-22s [%s%s] %3d %%  %3.0f s left ", what_.c_str(), std::string(static_cast<std::size_t>(full), '=').c_str(),
+  std::fprintf(stderr, "\r%-22s [%s%s] %3d %%  %3.0f s left ", what_.c_str(),
+               std::string(static_cast<std::size_t>(full), '=').c_str(),
                std::string(static_cast<std::size_t>(kWidth - full), ' ').c_str(), permille / 10, left);
   std::fflush(stderr);
   shown_ = true;

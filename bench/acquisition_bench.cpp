@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
-// One acquisition by stage, on one core: a decoded 640x480 image and a scan in memory, no file reading. The drive is the
-// office world, simulated once. Goals for the whole: 3 ms (must), 0.3 ms (goal), 0.15 ms (stretch).
+// One acquisition by stage, on one core: a decoded 640x480 image and a scan in memory, no file reading. The drive is
+// the office world, simulated once. Goals for the whole: 3 ms (must), 0.3 ms (goal), 0.15 ms (stretch).
 
 #include <benchmark/benchmark.h>
 
@@ -28,7 +28,8 @@ struct Drive {
 };
 
 Drive simulate(const std::string& world) {
-  const sim::Simulation simulation(sim::load_world(std::string(CREDO_SOURCE_DIR) + "/sim/worlds/" + world + ".yaml"), 1);
+  const sim::Simulation simulation(sim::load_world(std::string(CREDO_SOURCE_DIR) + "/sim/worlds/" + world + ".yaml"),
+                                   1);
   std::vector<sensors::OmniImage> images;
   std::vector<sensors::RangeScan> scans;
   std::vector<sensors::OdometryReading> odometry;

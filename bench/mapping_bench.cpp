@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Readings into an evidential map, cells of 5 cm, on one core: a scan of 361 beams in a room of 12 x 8 m, and a ring of 16
-// sonars in it. Goals: 15 us for the scan.
+// Readings into an evidential map, cells of 5 cm, on one core: a scan of 361 beams in a room of 12 x 8 m, and a ring of
+// 16 sonars in it. Goals: 15 us for the scan.
 
 #include <benchmark/benchmark.h>
 

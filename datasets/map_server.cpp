@@ -18,8 +18,8 @@ namespace credo::datasets {
 namespace {
 
 constexpr double kOccupiedThreshold = 0.65;
-// Grey 205 is (255 - 205) / 255 = 0.19608, which is not below 0.196: it stays unknown. It would read as free with nav2's own
-// default of 0.25.
+// Grey 205 is (255 - 205) / 255 = 0.19608, which is not below 0.196: it stays unknown. It would read as free with
+// nav2's own default of 0.25.
 constexpr double kFreeThreshold = 0.196;
 constexpr char kFreeGrey = static_cast<char>(254);
 constexpr char kOccupiedGrey = static_cast<char>(0);
@@ -56,8 +56,8 @@ std::int8_t interpret(const Pixel& pixel, const Rules& rules) {
   if (occupied > rules.occupied_threshold) return OccupancyMap::kOccupied;
   if (occupied < rules.free_threshold) return OccupancyMap::kFree;
   if (rules.mode == Mode::kTrinary) return OccupancyMap::kUnknown;
-  return static_cast<std::int8_t>(std::rint((occupied - rules.free_threshold) /
-                                            (rules.occupied_threshold - rules.free_threshold) * 100.0));
+  return static_cast<std::int8_t>(
+      std::rint((occupied - rules.free_threshold) / (rules.occupied_threshold - rules.free_threshold) * 100.0));
 }
 
 template <typename Value>
@@ -101,7 +101,8 @@ cv::Mat read_picture(const std::filesystem::path& file) {
       picture.release();
     }
   }
-  if (picture.empty()) throw FormatError(file, 0, "is no picture that can be read, or is cut short; expected PGM or PNG");
+  if (picture.empty())
+    throw FormatError(file, 0, "is no picture that can be read, or is cut short; expected PGM or PNG");
   if (picture.depth() != CV_8U && picture.depth() != CV_16U)
     throw FormatError(file, 0, "has neither 8 nor 16 bits per channel");
   return picture;
@@ -121,8 +122,8 @@ std::string yaml_of(const OccupancyMap& map, const std::string& image) {
 
 void check_writable(const OccupancyMap& map) {
   if (map.width <= 0 || map.height <= 0 || map.cells.size() != static_cast<std::size_t>(map.width) * map.height)
-    throw std::invalid_argument("an occupancy map of " + std::to_string(map.width) + " x " + std::to_string(map.height) +
-                                " cells holds " + std::to_string(map.cells.size()));
+    throw std::invalid_argument("an occupancy map of " + std::to_string(map.width) + " x " +
+                                std::to_string(map.height) + " cells holds " + std::to_string(map.cells.size()));
   if (!(map.resolution_m > 0.0) || !std::isfinite(map.resolution_m) || !std::isfinite(map.origin_x_m) ||
       !std::isfinite(map.origin_y_m) || !std::isfinite(map.origin_yaw_rad))
     throw std::invalid_argument("an occupancy map to be written has a resolution or an origin that is none");
@@ -156,8 +157,8 @@ OccupancyMap to_occupancy(const grids::EvidentialGrid& grid, const grids::Decisi
 }
 
 OccupancyMap read_map(const std::filesystem::path& yaml) {
-  const CheckedMap keys = load_yaml(yaml).map(
-      {"image", "resolution", "origin", "occupied_thresh", "free_thresh", "negate", "mode"});
+  const CheckedMap keys =
+      load_yaml(yaml).map({"image", "resolution", "origin", "occupied_thresh", "free_thresh", "negate", "mode"});
   OccupancyMap map;
   map.resolution_m = keys.required("resolution").number(kPositiveLength);
   const geometry::Pose2 origin = keys.required("origin").pose();

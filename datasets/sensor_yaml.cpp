@@ -234,7 +234,8 @@ sensors::SonarRing read_sonar_ring(const std::filesystem::path& file, Remarks& r
   if (common.T_base_sensor != geometry::Pose2{})
     remarks.push_back(file.string() + ": pose has no effect: the transducers are given in the robot base frame");
   const CheckedValue transducers = keys.required("transducers");
-  for (const CheckedValue& transducer : transducers.items()) ring.T_base_transducer.push_back(transducer.pose(kMounting));
+  for (const CheckedValue& transducer : transducers.items())
+    ring.T_base_transducer.push_back(transducer.pose(kMounting));
   if (ring.T_base_transducer.empty()) transducers.fail("transducers: expected at least one [x, y, theta], found none");
   if (const auto times = keys.optional("firing_times"))
     ring.firing_times_s = times->numbers(ring.T_base_transducer.size(), kDuration);

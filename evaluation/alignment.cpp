@@ -80,10 +80,14 @@ Alignment align(AssociatedPair& pair, const AlignmentParams& params) {
 
 std::string describe(const AlignmentParams& params) {
   std::string text;
-  if (params.align && params.correct_scale) text = "(with Sim(3) Umeyama alignment)";
-  else if (params.align) text = "(with SE(3) Umeyama alignment)";
-  else if (params.correct_scale) text = "(scale corrected)";
-  else if (!params.align_origin) text = "(not aligned)";
+  if (params.align && params.correct_scale)
+    text = "(with Sim(3) Umeyama alignment)";
+  else if (params.align)
+    text = "(with SE(3) Umeyama alignment)";
+  else if (params.correct_scale)
+    text = "(scale corrected)";
+  else if (!params.align_origin)
+    text = "(not aligned)";
   if ((params.align || params.correct_scale) && params.n_to_align >= 0) {
     text += " (aligned poses: " + std::to_string(params.n_to_align) + ")";
   }

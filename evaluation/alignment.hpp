@@ -9,10 +9,10 @@ namespace credo::evaluation {
 
 /// Localization in a known map has no gauge freedom: nothing is aligned unless it is asked for.
 struct AlignmentParams {
-  bool align = false;         ///< rotation and translation by Umeyama's method
-  bool correct_scale = false; ///< a scale too; alone: nothing but the scale
-  bool align_origin = false;  ///< moves the estimate so that the first poses agree
-  int n_to_align = -1;        ///< use the first n poses for the fit; -1: all
+  bool align = false;          ///< rotation and translation by Umeyama's method
+  bool correct_scale = false;  ///< a scale too; alone: nothing but the scale
+  bool align_origin = false;   ///< moves the estimate so that the first poses agree
+  int n_to_align = -1;         ///< use the first n poses for the fit; -1: all
 };
 
 /// reference = scale * rotation * estimate + translation
@@ -22,8 +22,8 @@ struct Alignment {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
 };
 
-/// Least squares over the positions of a similarity or rigid transform (Umeyama, PAMI 1991). Planar data are fitted in the
-/// plane, so that height, roll and pitch absorb no error.
+/// Least squares over the positions of a similarity or rigid transform (Umeyama, PAMI 1991). Planar data are fitted in
+/// the plane, so that height, roll and pitch absorb no error.
 /// \throws std::runtime_error if the positions lie on a straight line or fewer than two are asked for
 [[nodiscard]] Alignment umeyama(const Trajectory& reference, const Trajectory& estimate, bool with_scale, int n = -1);
 

@@ -24,9 +24,8 @@ struct Candidate {
 std::vector<std::size_t> by_time(const Trajectory& trajectory) {
   std::vector<std::size_t> order(trajectory.poses.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return trajectory.poses[a].time < trajectory.poses[b].time;
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return trajectory.poses[a].time < trajectory.poses[b].time; });
   return order;
 }
 
@@ -38,13 +37,13 @@ Timestamp shifted(Timestamp time, Timestamp offset) {
 void check(const AssociationParams& params) {
   constexpr double kLargest = AssociationParams::kLargest_s;
   if (!(std::abs(params.t_offset_s) <= kLargest && params.t_max_diff_s >= 0.0 && params.t_max_diff_s <= kLargest))
-    throw std::invalid_argument("the largest difference in time of a match must be from 0 to 4e9 s, and an offset within 4e9 s");
+    throw std::invalid_argument(
+        "the largest difference in time of a match must be from 0 to 4e9 s, and an offset within 4e9 s");
 }
 
 Candidate nearest(const Trajectory& trajectory, const std::vector<std::size_t>& order, Timestamp time) {
-  const auto after = std::lower_bound(order.begin(), order.end(), time, [&](std::size_t i, Timestamp t) {
-    return trajectory.poses[i].time < t;
-  });
+  const auto after = std::lower_bound(order.begin(), order.end(), time,
+                                      [&](std::size_t i, Timestamp t) { return trajectory.poses[i].time < t; });
   Candidate best{.index = 0, .difference = std::numeric_limits<Timestamp>::max()};
   if (after != order.begin()) best = {*(after - 1), time - trajectory.poses[*(after - 1)].time};
   if (after != order.end() && trajectory.poses[*after].time - time < best.difference) {
@@ -54,7 +53,8 @@ Candidate nearest(const Trajectory& trajectory, const std::vector<std::size_t>& 
 }
 
 /// For each pose of `shorter` the index into `longer`, or -1.
-std::vector<std::ptrdiff_t> match(const Trajectory& shorter, const Trajectory& longer, Timestamp offset, Timestamp limit) {
+std::vector<std::ptrdiff_t> match(const Trajectory& shorter, const Trajectory& longer, Timestamp offset,
+                                  Timestamp limit) {
   const std::vector<std::size_t> order = by_time(longer);
   std::vector<std::ptrdiff_t> owner(longer.poses.size(), -1);
   std::vector<Candidate> candidates(shorter.poses.size());
@@ -87,9 +87,8 @@ AssociatedPair interpolate_reference(const Trajectory& reference, const Trajecto
                       .possible = static_cast<int>(estimate.poses.size())};
   for (const StampedPose& pose : estimate.poses) {
     const Timestamp time = shifted(pose.time, offset);
-    const auto after = std::lower_bound(order.begin(), order.end(), time, [&](std::size_t i, Timestamp t) {
-      return reference.poses[i].time < t;
-    });
+    const auto after = std::lower_bound(order.begin(), order.end(), time,
+                                        [&](std::size_t i, Timestamp t) { return reference.poses[i].time < t; });
     const Candidate close = nearest(reference, order, time);
     const bool between = after != order.begin() && after != order.end() && close.difference > 0;
     if (!between && close.difference > limit) continue;
@@ -124,7 +123,8 @@ AssociatedPair associate(const Trajectory& reference, const Trajectory& estimate
     const Trajectory& shorter = estimate_is_longer ? reference : estimate;
     const Trajectory& longer = estimate_is_longer ? estimate : reference;
     const auto matches = match(shorter, longer, estimate_is_longer ? -offset : offset, limit);
-    pair = {.reference = {.name = reference.name}, .estimate = {.name = estimate.name},
+    pair = {.reference = {.name = reference.name},
+            .estimate = {.name = estimate.name},
             .possible = static_cast<int>(shorter.poses.size())};
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (matches[i] < 0) continue;

@@ -22,9 +22,10 @@ struct AssociatedPair {
 };
 
 /// Each pose of the shorter trajectory takes the pose of the longer one that is nearest in time, where that is within
-/// `t_max_diff_s`; of several that want the same one, the nearest gets it and the others stay unmatched. Trajectories without
-/// times are matched row by row.
-/// \throws std::invalid_argument if a parameter is not finite or too large, std::runtime_error if nothing matches or if without times the numbers of poses differ
+/// `t_max_diff_s`; of several that want the same one, the nearest gets it and the others stay unmatched. Trajectories
+/// without times are matched row by row.
+/// \throws std::invalid_argument if a parameter is not finite or too large, std::runtime_error if nothing matches or if
+///   without times the numbers of poses differ
 [[nodiscard]] AssociatedPair associate(const Trajectory& reference, const Trajectory& estimate,
                                        const AssociationParams& params = {});
 

@@ -24,8 +24,8 @@ double quadratic_form(const Eigen::Matrix<double, N, 1>& e, const Eigen::Matrix<
   return whitened.squaredNorm();
 }
 
-/// Regularised lower incomplete gamma function P(a, x): the series below a + 1, the continued fraction above (Abramowitz and
-/// Stegun 6.5.29, 6.5.31; the fraction by Lentz's method).
+/// Regularised lower incomplete gamma function P(a, x): the series below a + 1, the continued fraction above
+/// (Abramowitz and Stegun 6.5.29, 6.5.31; the fraction by Lentz's method).
 double lower_gamma(double a, double x) {
   constexpr double kPrecision = 1e-15;
   if (x <= 0.0) return 0.0;

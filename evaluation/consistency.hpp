@@ -11,8 +11,9 @@
 
 namespace credo::evaluation {
 
-/// Normalised estimation error squared e^T P^-1 e, with e = truth - estimate (theta wrapped) and P in the map frame, which is
-/// how PoseEstimate defines its covariance (Bar-Shalom et al., Estimation with Applications, sec. 5.4). Expected: 3.
+/// Normalised estimation error squared e^T P^-1 e, with e = truth - estimate (theta wrapped) and P in the map frame,
+/// which is how PoseEstimate defines its covariance (Bar-Shalom et al., Estimation with Applications, sec. 5.4).
+/// Expected: 3.
 /// \returns infinity for a covariance that is not positive definite
 [[nodiscard]] double nees(const geometry::PoseEstimate& estimate, const geometry::Pose2& truth);
 /// Of the position alone. Expected: 2.
@@ -35,9 +36,9 @@ struct Bounds {
 /// ANEES of N independent runs: by the index of the acquisition, and over all of it.
 struct Consistency {
   int runs = 0;
-  std::vector<double> anees = {};///< by index, over the runs
-  Bounds bounds = {};            ///< 95 %, of one index
-  double share_inside = 0.0;     ///< of the indices
+  std::vector<double> anees = {};  ///< by index, over the runs
+  Bounds bounds = {};              ///< 95 %, of one index
+  double share_inside = 0.0;       ///< of the indices
   double mean = 0.0;
   /// At least 90 % of the indices inside the bounds, and the mean in 2..4.
   [[nodiscard]] bool met() const { return share_inside >= 0.9 && mean >= 2.0 && mean <= 4.0; }

@@ -82,7 +82,8 @@ void add_protection(LocalizationScore& result, const std::vector<Sample>& sample
   const auto monitored = [](const Sample& s) { return !std::isnan(s.row->protection.position_high_m); };
   if (std::none_of(samples.begin(), samples.end(), monitored)) return;
   const auto available = [&](const Sample& s) {
-    return s.row->localization.status == Status::kLocalized && s.row->protection.position_high_m <= params.available_level_m &&
+    return s.row->localization.status == Status::kLocalized &&
+           s.row->protection.position_high_m <= params.available_level_m &&
            s.row->protection.heading_high_rad <= geometry::to_radians(params.available_level_deg);
   };
   result.available = share(samples, available);
@@ -126,18 +127,21 @@ std::string percent(const std::optional<double>& share) { return share ? percent
 
 std::optional<geometry::Pose2> truth_at(std::span<const datasets::TimedPose> truth, sensors::Timestamp time,
                                         const ScoreParams& params) {
-  const auto after = std::lower_bound(truth.begin(), truth.end(), time,
-                                      [](const datasets::TimedPose& row, sensors::Timestamp t) { return row.time < t; });
+  const auto after =
+      std::lower_bound(truth.begin(), truth.end(), time,
+                       [](const datasets::TimedPose& row, sensors::Timestamp t) { return row.time < t; });
   if (after != truth.end() && after->time == time) return after->pose;
   if (after != truth.begin() && after != truth.end()) {
     const datasets::TimedPose &a = *(after - 1), &b = *after;
     const double gap = sensors::seconds_between(a.time, b.time);
-    if (gap <= params.truth_max_gap_s) return geometry::interpolate(a.pose, b.pose, sensors::seconds_between(a.time, time) / gap);
+    if (gap <= params.truth_max_gap_s)
+      return geometry::interpolate(a.pose, b.pose, sensors::seconds_between(a.time, time) / gap);
   }
   const datasets::TimedPose* nearest = nullptr;
   if (after != truth.begin()) nearest = &*(after - 1);
   if (after != truth.end() && (nearest == nullptr || after->time - time < time - nearest->time)) nearest = &*after;
-  if (nearest == nullptr || std::abs(sensors::seconds_between(nearest->time, time)) > params.truth_max_diff_s) return {};
+  if (nearest == nullptr || std::abs(sensors::seconds_between(nearest->time, time)) > params.truth_max_diff_s)
+    return {};
   return nearest->pose;
 }
 
@@ -145,9 +149,11 @@ LocalizationScore score(std::span<const LocalizationRow> rows, std::span<const d
                         const std::optional<std::vector<Interval>>& degraded, const ScoreParams& params) {
   const std::vector<Sample> samples = with_truth(rows, truth, params);
   if (samples.empty()) {
-    throw std::runtime_error("no acquisition has a ground truth at its time: do the result and the reference belong together?");
+    throw std::runtime_error(
+        "no acquisition has a ground truth at its time: do the result and the reference belong together?");
   }
-  LocalizationScore result{.acquisitions = static_cast<int>(rows.size()), .with_truth = static_cast<int>(samples.size())};
+  LocalizationScore result{.acquisitions = static_cast<int>(rows.size()),
+                           .with_truth = static_cast<int>(samples.size())};
   const auto status = [](const Sample& s) { return s.row->localization.status; };
   const auto confident = [&](const Sample& s) {
     return status(s) == Status::kLocalized && s.row->localization.belief.yes > params.confident_belief;
@@ -165,7 +171,8 @@ LocalizationScore score(std::span<const LocalizationRow> rows, std::span<const d
   result.alert = share(samples, [&](const Sample& s) { return status(s) != Status::kLocalized; });
   result.false_alert = share(samples, [&](const Sample& s) {
     return status(s) != Status::kLocalized && s.position_m < params.lost_above_m &&
-           s.heading_rad < geometry::to_radians(params.lost_above_deg) && !(degraded && within(*degraded, s.row->localization.time));
+           s.heading_rad < geometry::to_radians(params.lost_above_deg) &&
+           !(degraded && within(*degraded, s.row->localization.time));
   });
   result.degradation_known = degraded.has_value();
   add_protection(result, samples, params);
@@ -193,7 +200,8 @@ double calibration_error(std::span<const double> probabilities, const std::vecto
   const std::size_t n = probabilities.size();
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return probabilities[a] < probabilities[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return probabilities[a] < probabilities[b]; });
   double error = 0.0;
   for (int bin = 0; bin < bins; ++bin) {
     const std::size_t from = n * static_cast<std::size_t>(bin) / static_cast<std::size_t>(bins);
@@ -217,26 +225,34 @@ std::string to_text(const LocalizationScore& s, const ScoreParams& p) {
   const std::string lost = limits(p.lost_above_m, p.lost_above_deg), wrong = limits(p.wrong_above_m, p.wrong_above_deg);
   std::string text = "Localization against ground truth: " + std::to_string(s.with_truth) + " of " +
                      std::to_string(s.acquisitions) + " acquisitions have a truth (not aligned)\n";
-  text += row_of("mean position error", cm(s.mean_position_m),
-                 "median " + cm(s.median_position_m) + ", rmse " + cm(s.rmse_position_m) + ", max " + cm(s.max_position_m));
-  text += row_of("mean heading error", deg(s.mean_heading_rad),
-                 "median " + deg(s.median_heading_rad) + ", rmse " + deg(s.rmse_heading_rad) + ", max " + deg(s.max_heading_rad));
-  text += row_of("success", percent(s.success), "error below " + limits(p.success_below_m, p.success_below_deg, " and "));
+  text +=
+      row_of("mean position error", cm(s.mean_position_m),
+             "median " + cm(s.median_position_m) + ", rmse " + cm(s.rmse_position_m) + ", max " + cm(s.max_position_m));
+  text += row_of(
+      "mean heading error", deg(s.mean_heading_rad),
+      "median " + deg(s.median_heading_rad) + ", rmse " + deg(s.rmse_heading_rad) + ", max " + deg(s.max_heading_rad));
+  text +=
+      row_of("success", percent(s.success), "error below " + limits(p.success_below_m, p.success_below_deg, " and "));
   text += row_of("confidently wrong", percent(s.confidently_wrong),
                  "localized, belief_yes > " + formatted("%g", p.confident_belief) + ", yet error > " + wrong);
   text += row_of("confidently right", percent(s.confidently_right), "the same words, and error within both");
   text += row_of("lost", percent(s.lost), "error > " + lost);
   text += row_of("alert", percent(s.alert), "status other than localized");
-  text += row_of("false alert", percent(s.false_alert), std::string("an alert with error below both limits of lost, ") +
-                 (s.degradation_known ? "no sensor degraded" : "or less: no events.csv says when sensors were degraded"));
-  text += row_of("available", percent(s.available), "localized and protection levels within " +
-                 limits(p.available_level_m, p.available_level_deg, " and ") + (s.available ? "" : " (no integrity monitor)"));
+  text += row_of(
+      "false alert", percent(s.false_alert),
+      std::string("an alert with error below both limits of lost, ") +
+          (s.degradation_known ? "no sensor degraded" : "or less: no events.csv says when sensors were degraded"));
+  text +=
+      row_of("available", percent(s.available),
+             "localized and protection levels within " + limits(p.available_level_m, p.available_level_deg, " and ") +
+                 (s.available ? "" : " (no integrity monitor)"));
   text += row_of("misleading", percent(s.misleading), "available, yet the error is above the protection level");
-  text += row_of("NEES", formatted("%.2f", s.anees), "mean over time of one run (3 expected); within 3 sigma: " +
-                 percent(s.inside_3_sigma));
+  text += row_of("NEES", formatted("%.2f", s.anees),
+                 "mean over time of one run (3 expected); within 3 sigma: " + percent(s.inside_3_sigma));
   const bool enough = s.lost_count >= 200;
-  text += row_of("AUROC", s.auroc ? formatted("%.3f", *s.auroc) : "-", "BetP(YES) against lost, over " +
-                 std::to_string(s.lost_count) + " lost" + (enough ? "" : " (at least 200 are asked for)"));
+  text += row_of("AUROC", s.auroc ? formatted("%.3f", *s.auroc) : "-",
+                 "BetP(YES) against lost, over " + std::to_string(s.lost_count) + " lost" +
+                     (enough ? "" : " (at least 200 are asked for)"));
   text += row_of("calibration error", formatted("%.3f", s.calibration_error.value_or(0.0)),
                  "ECE of BetP(YES), 10 bins of equal count");
   return text;

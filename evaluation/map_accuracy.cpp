@@ -84,7 +84,8 @@ MapAccuracy compare(const EvidentialGrid& map, const CellBox& box, const Plane<T
           ++(truth.near(cell, Truth::kOccupied, tolerance) ? result.correct : result.wrongly_occupied);
           break;
         case Truth::kEmpty:
-          ++(real == Truth::kEmpty || said.near(cell, Truth::kOccupied, tolerance) ? result.correct : result.wrongly_empty);
+          ++(real == Truth::kEmpty || said.near(cell, Truth::kOccupied, tolerance) ? result.correct
+                                                                                   : result.wrongly_empty);
           break;
       }
     }
@@ -106,7 +107,8 @@ Truth truth_of(std::int8_t cell) {
 
 }  // namespace
 
-MapAccuracy map_accuracy(const EvidentialGrid& map, const datasets::OccupancyMap& truth, const MapAccuracyParams& params) {
+MapAccuracy map_accuracy(const EvidentialGrid& map, const datasets::OccupancyMap& truth,
+                         const MapAccuracyParams& params) {
   const CellBox box = checked_box(map, params);
   const grids::Georeference& reference = map.georeference();
   const geometry::Pose2 T_map_truth{truth.origin_x_m, truth.origin_y_m, truth.origin_yaw_rad};
@@ -146,15 +148,17 @@ MapAccuracy map_accuracy(const EvidentialGrid& map, const geometry::FloorPlan& p
   for (const geometry::Segment& wall : plan.walls) {
     const auto steps = 1 + static_cast<std::int64_t>(wall.length() / reference.resolution_m * kStepsPerCell);
     for (std::int64_t step = 0; step <= steps; ++step)
-      real.set(reference.cell_at(wall.a + (wall.b - wall.a) * (static_cast<double>(step) / static_cast<double>(steps))), Truth::kOccupied);
+      real.set(reference.cell_at(wall.a + (wall.b - wall.a) * (static_cast<double>(step) / static_cast<double>(steps))),
+               Truth::kOccupied);
   }
   return compare(map, box, real, params);
 }
 
 std::ostream& operator<<(std::ostream& out, const MapAccuracy& a) {
-  return out << "accuracy " << a.accuracy() << " of " << a.observed << " observed cells; undecided " << a.undecided_share()
-             << ", withheld " << a.withheld_share() << "; wrongly empty " << a.wrongly_empty << ", wrongly occupied "
-             << a.wrongly_occupied << "; walls found " << a.surface_found << " of " << a.surface;
+  return out << "accuracy " << a.accuracy() << " of " << a.observed << " observed cells; undecided "
+             << a.undecided_share() << ", withheld " << a.withheld_share() << "; wrongly empty " << a.wrongly_empty
+             << ", wrongly occupied " << a.wrongly_occupied << "; walls found " << a.surface_found << " of "
+             << a.surface;
 }
 
 }  // namespace credo::evaluation

@@ -15,14 +15,14 @@ namespace credo::evaluation {
 
 /// A map against the truth. A cell counts if it was observed at least once and the truth of its centre is known.
 struct MapAccuracy {
-  std::int64_t observed = 0;         ///< cells that count
-  std::int64_t correct = 0;          ///< occupied iff m(occupied) > m(empty), as the truth, up to `tolerance_cells` at walls
-  std::int64_t undecided = 0;        ///< neither mass is greater; never correct
-  std::int64_t wrongly_empty = 0;    ///< said empty, a wall in truth, and no wall was found within the tolerance
-  std::int64_t wrongly_occupied = 0; ///< said occupied, and no wall within the tolerance
-  std::int64_t withheld = 0;         ///< called unknown or contested by `DecisionParams`, whichever mass is greater
-  std::int64_t surface = 0;          ///< true wall cells with something observed within the tolerance
-  std::int64_t surface_found = 0;    ///< of them, said occupied within the tolerance
+  std::int64_t observed = 0;   ///< cells that count
+  std::int64_t correct = 0;    ///< occupied iff m(occupied) > m(empty), as the truth, up to `tolerance_cells` at walls
+  std::int64_t undecided = 0;  ///< neither mass is greater; never correct
+  std::int64_t wrongly_empty = 0;     ///< said empty, a wall in truth, and no wall was found within the tolerance
+  std::int64_t wrongly_occupied = 0;  ///< said occupied, and no wall within the tolerance
+  std::int64_t withheld = 0;          ///< called unknown or contested by `DecisionParams`, whichever mass is greater
+  std::int64_t surface = 0;           ///< true wall cells with something observed within the tolerance
+  std::int64_t surface_found = 0;     ///< of them, said occupied within the tolerance
 
   [[nodiscard]] double accuracy() const { return observed > 0 ? double(correct) / double(observed) : 0.0; }
   [[nodiscard]] double undecided_share() const { return observed > 0 ? double(undecided) / double(observed) : 0.0; }
@@ -33,7 +33,8 @@ struct MapAccuracy {
 };
 
 struct MapAccuracyParams {
-  int tolerance_cells = 1;  ///< at walls: what is said to be a wall may lie this far from a true one, diagonals included
+  int tolerance_cells =
+      1;  ///< at walls: what is said to be a wall may lie this far from a true one, diagonals included
   grids::DecisionParams decision;
 };
 
@@ -42,8 +43,8 @@ struct MapAccuracyParams {
 [[nodiscard]] MapAccuracy map_accuracy(const grids::EvidentialGrid& map, const datasets::OccupancyMap& truth,
                                        const MapAccuracyParams& params = {});
 
-/// Truth from a floor plan: a cell is occupied if a wall passes through it, empty otherwise, within the plan's bounding box
-/// widened by the tolerance.
+/// Truth from a floor plan: a cell is occupied if a wall passes through it, empty otherwise, within the plan's bounding
+/// box widened by the tolerance.
 /// \throws std::invalid_argument if the plan has no wall, or no cell within it was observed.
 [[nodiscard]] MapAccuracy map_accuracy(const grids::EvidentialGrid& map, const geometry::FloorPlan& plan,
                                        const MapAccuracyParams& params = {});

@@ -17,8 +17,8 @@ bool beyond(double difference, double sigma, double limit, double sigmas) {
   return std::abs(difference) > std::max(limit, sigmas * sigma);
 }
 
-bool wrong_wall(const perception::Primitive& seen, const localization::WallLandmark& wall, const geometry::Pose2& T_map_base,
-                const MatchCheckParams& params) {
+bool wrong_wall(const perception::Primitive& seen, const localization::WallLandmark& wall,
+                const geometry::Pose2& T_map_base, const MatchCheckParams& params) {
   const Eigen::Vector2d middle = T_map_base * seen.line.centroid;
   const double across = wall.normal().dot(middle - wall.extent.a);
   const double wall_angle = std::atan2(wall.direction.y(), wall.direction.x());
@@ -29,7 +29,8 @@ bool wrong_wall(const perception::Primitive& seen, const localization::WallLandm
 }
 
 bool wrong_point(const perception::Primitive& seen, const Eigen::Vector2d& camera_origin,
-                 const localization::PointLandmark& point, const geometry::Pose2& T_map_base, const MatchCheckParams& params) {
+                 const localization::PointLandmark& point, const geometry::Pose2& T_map_base,
+                 const MatchCheckParams& params) {
   const Eigen::Vector2d expected = T_map_base.inverse() * point.position;
   const Eigen::Vector2d ray = expected - (seen.bearing_only ? camera_origin : Eigen::Vector2d::Zero());
   const double azimuth = geometry::angle_difference(seen.azimuth, std::atan2(ray.y(), ray.x()));
@@ -40,8 +41,8 @@ bool wrong_point(const perception::Primitive& seen, const Eigen::Vector2d& camer
 }  // namespace
 
 bool is_wrong_match(const perception::Primitive& seen, const Eigen::Vector2d& camera_origin,
-                    const localization::LandmarkMap& map, tracking::LandmarkId landmark, const geometry::Pose2& T_map_base,
-                    const MatchCheckParams& params) {
+                    const localization::LandmarkMap& map, tracking::LandmarkId landmark,
+                    const geometry::Pose2& T_map_base, const MatchCheckParams& params) {
   return map.is_wall(landmark) ? wrong_wall(seen, map.wall(landmark), T_map_base, params)
                                : wrong_point(seen, camera_origin, map.point(landmark), T_map_base, params);
 }
@@ -53,7 +54,8 @@ MatchCounts check_matches(const perception::Scene& scene, std::span<const tracki
   for (const tracking::Track& track : tracks) {
     if (track.state != tracking::TrackState::kTracked || track.landmark == tracking::kNoLandmark) continue;
     ++counts.matches;
-    counts.wrong += is_wrong_match(track.last_seen, scene.camera_origin, map, track.landmark, T_map_base, params) ? 1 : 0;
+    counts.wrong +=
+        is_wrong_match(track.last_seen, scene.camera_origin, map, track.landmark, T_map_base, params) ? 1 : 0;
   }
   return counts;
 }

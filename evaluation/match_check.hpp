@@ -33,8 +33,8 @@ struct MatchCounts {
 };
 
 /// Whether azimuth or range of a landmark, predicted from the true pose, differs from the observation by more than
-/// `sigmas` standard deviations and by more than `angle_deg` or `distance_m`. Of a wall it is the direction of its line and
-/// the distance across it.
+/// `sigmas` standard deviations and by more than `angle_deg` or `distance_m`. Of a wall it is the direction of its line
+/// and the distance across it.
 /// \param T_map_base  the true pose at the time of the scene
 [[nodiscard]] bool is_wrong_match(const perception::Primitive& seen, const Eigen::Vector2d& camera_origin,
                                   const localization::LandmarkMap& map, tracking::LandmarkId landmark,

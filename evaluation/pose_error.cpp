@@ -77,8 +77,8 @@ IndexPairs all_pairs_by_path(const std::vector<StampedPose>& poses, double delta
   IndexPairs pairs;
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
     const auto miss = [&](std::size_t j) { return std::abs(lengths[j] - lengths[i] - delta); };
-    const auto after = std::lower_bound(lengths.begin() + static_cast<std::ptrdiff_t>(i) + 1, lengths.end(),
-                                        lengths[i] + delta);
+    const auto after =
+        std::lower_bound(lengths.begin() + static_cast<std::ptrdiff_t>(i) + 1, lengths.end(), lengths[i] + delta);
     std::size_t best = std::min(static_cast<std::size_t>(after - lengths.begin()), poses.size() - 1);
     while (best > i + 1 && miss(best - 1) <= miss(best)) --best;  // of equally good ones the first
     if (miss(best) <= tolerance) pairs.emplace_back(i, best);
@@ -104,7 +104,9 @@ IndexPairs consecutive_pairs_by_path(const std::vector<StampedPose>& poses, doub
 
 IndexPairs pairs_by_angle(const std::vector<StampedPose>& poses, double delta, double tolerance, bool all) {
   IndexPairs pairs;
-  const auto angle = [&](std::size_t i, std::size_t j) { return rotation_angle(relative(poses[i], poses[j]).rotation); };
+  const auto angle = [&](std::size_t i, std::size_t j) {
+    return rotation_angle(relative(poses[i], poses[j]).rotation);
+  };
   if (all) {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       for (std::size_t j = i + 1; j < poses.size(); ++j) {
@@ -164,7 +166,8 @@ IndexPairs pairs_at(const std::vector<StampedPose>& poses, const RelativeErrorPa
   switch (params.unit) {
     case DeltaUnit::kFrames:
       if (delta < 1.0 || delta != std::floor(delta)) {
-        throw std::runtime_error("--delta in frames must be a whole number of at least 1: correct it, or give a --delta_unit");
+        throw std::runtime_error(
+            "--delta in frames must be a whole number of at least 1: correct it, or give a --delta_unit");
       }
       if (delta >= static_cast<double>(poses.size())) return {};
       return pairs_by_index(poses.size(), static_cast<std::size_t>(delta), params.all_pairs);
@@ -182,8 +185,8 @@ PoseErrors relative_pose_error(const AssociatedPair& pair, const RelativeErrorPa
   }
   const auto& p = pair.estimate.poses;
   const auto& q = pair.reference.poses;
-  PoseErrors result{.title = std::string("RPE w.r.t. ") + name_of(params.relation) + "\nfor delta = " +
-                             delta_text(params) + " (" + name_of(params.unit) + ") using " +
+  PoseErrors result{.title = std::string("RPE w.r.t. ") + name_of(params.relation) +
+                             "\nfor delta = " + delta_text(params) + " (" + name_of(params.unit) + ") using " +
                              (params.all_pairs ? "all" : "consecutive") + " pairs"};
   for (const auto& [i, j] : pairs_at(params.pairs_from_reference ? q : p, params)) {
     const StampedPose moved_q = relative(q[i], q[j]), moved_p = relative(p[i], p[j]);
@@ -203,8 +206,13 @@ PoseErrors relative_pose_error(const AssociatedPair& pair, const RelativeErrorPa
 std::string to_text(const PoseErrors& errors, const AlignmentParams& alignment) {
   const Statistics& s = errors.statistics;
   std::string text = errors.title + "\n" + describe(alignment) + "\n\n";
-  for (const auto& [name, value] : {std::pair{"max", s.max}, {"mean", s.mean}, {"median", s.median}, {"min", s.min},
-                                    {"rmse", s.rmse}, {"sse", s.sse}, {"std", s.std}}) {
+  for (const auto& [name, value] : {std::pair{"max", s.max},
+                                    {"mean", s.mean},
+                                    {"median", s.median},
+                                    {"min", s.min},
+                                    {"rmse", s.rmse},
+                                    {"sse", s.sse},
+                                    {"std", s.std}}) {
     char line[64];
     std::snprintf(line, sizeof line, "%10s\t%.6f\n", name, value);
     text += line;

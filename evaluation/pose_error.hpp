@@ -52,13 +52,13 @@ struct RelativeErrorParams {
   bool pairs_from_reference = false;
 };
 
-/// Relative pose error: E_i = (Q_i^-1 Q_j)^-1 (P_i^-1 P_j) over the pairs (i, j) that are `delta` apart (Sturm et al., IROS
-/// 2012; evo).
+/// Relative pose error: E_i = (Q_i^-1 Q_j)^-1 (P_i^-1 P_j) over the pairs (i, j) that are `delta` apart (Sturm et al.,
+/// IROS 2012; evo).
 /// \throws std::runtime_error if no pair is `delta` apart, or if `delta` is not above 0 and at most kLargestDelta
 [[nodiscard]] PoseErrors relative_pose_error(const AssociatedPair& pair, const RelativeErrorParams& params);
 
-/// The pairs of poses that are `delta` apart, as evo picks them: along the path for metres; by the accumulated angle for
-/// consecutive pairs and by the direct angle for all pairs.
+/// The pairs of poses that are `delta` apart, as evo picks them: along the path for metres; by the accumulated angle
+/// for consecutive pairs and by the direct angle for all pairs.
 [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> pairs_at(const std::vector<StampedPose>& poses,
                                                                         const RelativeErrorParams& params);
 

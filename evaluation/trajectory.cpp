@@ -44,9 +44,9 @@ TrajectoryFacts facts(const Trajectory& trajectory) {
     result.longest_gap_s = std::max(result.longest_gap_s, sensors::seconds_between(before.time, after.time));
   }
   if (!trajectory.poses.empty() && trajectory.timed) {
-    const auto [first, last] = std::minmax_element(
-        trajectory.poses.begin(), trajectory.poses.end(),
-        [](const StampedPose& a, const StampedPose& b) { return a.time < b.time; });
+    const auto [first, last] =
+        std::minmax_element(trajectory.poses.begin(), trajectory.poses.end(),
+                            [](const StampedPose& a, const StampedPose& b) { return a.time < b.time; });
     result.duration_s = sensors::seconds_between(first->time, last->time);
   }
   return result;

@@ -24,7 +24,7 @@ using datasets::StampedPose;
 
 /// Poses over time, in the order of the file.
 struct Trajectory {
-  std::string name;  ///< where it comes from
+  std::string name;   ///< where it comes from
   bool timed = true;  ///< false: the format has no times (KITTI); `time` is the index then
   std::vector<StampedPose> poses = {};
 };
@@ -41,7 +41,7 @@ struct TrajectoryFacts {
   int poses = 0;
   double length_m = 0.0;
   double duration_s = 0.0;
-  int times_going_back = 0;      ///< rows whose time is before that of the row above
+  int times_going_back = 0;  ///< rows whose time is before that of the row above
   int equal_times = 0;
   double longest_gap_s = 0.0;
 };

@@ -26,7 +26,8 @@ void check(const RampBelief& shape, const char* name) {
   }
   if (shape.max_yes == 0.0 || shape.max_no == 0.0) return;
   const bool larger_is_worse = shape.yes_full_until <= shape.yes_zero_from && shape.no_zero_until <= shape.no_full_from;
-  const bool larger_is_better = shape.yes_full_until >= shape.yes_zero_from && shape.no_zero_until >= shape.no_full_from;
+  const bool larger_is_better =
+      shape.yes_full_until >= shape.yes_zero_from && shape.no_zero_until >= shape.no_full_from;
   if (!larger_is_worse && !larger_is_better) refuse(name, "YES must fall in the direction in which NO rises");
   // yes + no is piecewise linear: largest at a breakpoint.
   for (const double x : {shape.yes_full_until, shape.yes_zero_from, shape.no_zero_until, shape.no_full_from}) {

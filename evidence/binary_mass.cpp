@@ -74,7 +74,9 @@ OpenBinaryMass conjunctive(std::span<const BinaryMass> sources) { return conjoin
 OpenBinaryMass conjunctive(std::initializer_list<BinaryMass> sources) { return conjunctive(as_span(sources)); }
 
 std::optional<FusedBinaryMass> dempster(std::span<const BinaryMass> sources) { return conjoin(sources).dempster(); }
-std::optional<FusedBinaryMass> dempster(std::initializer_list<BinaryMass> sources) { return dempster(as_span(sources)); }
+std::optional<FusedBinaryMass> dempster(std::initializer_list<BinaryMass> sources) {
+  return dempster(as_span(sources));
+}
 
 FusedBinaryMass conflict_to_ignorance(std::span<const BinaryMass> sources) {
   return conjoin(sources).conflict_to_ignorance();

@@ -53,8 +53,8 @@ enum class FusionRule {
   kConflictToIgnorance  ///< moved to the frame, once (Yager; Clerentin et al., sec. 3.1)
 };
 
-/// Sources taken in one after the other without storing them, and the rules that are read from their conjunction. Sums of
-/// products of masses only: nothing is subtracted, so masses are never negative and small ones keep their digits.
+/// Sources taken in one after the other without storing them, and the rules that are read from their conjunction. Sums
+/// of products of masses only: nothing is subtracted, so masses are never negative and small ones keep their digits.
 class Conjunction {
  public:
   void add(const BinaryMass& source);
@@ -76,8 +76,8 @@ class Conjunction {
 [[nodiscard]] OpenBinaryMass conjunctive(std::span<const BinaryMass> sources);
 [[nodiscard]] OpenBinaryMass conjunctive(std::initializer_list<BinaryMass> sources);
 
-/// Dempster's rule: the conjunctive rule divided by the sum of what is not in conflict (not by 1 - conflict, which has no
-/// digits left near total conflict).
+/// Dempster's rule: the conjunctive rule divided by the sum of what is not in conflict (not by 1 - conflict, which has
+/// no digits left near total conflict).
 /// \returns nothing at total conflict.
 [[nodiscard]] std::optional<FusedBinaryMass> dempster(std::span<const BinaryMass> sources);
 [[nodiscard]] std::optional<FusedBinaryMass> dempster(std::initializer_list<BinaryMass> sources);

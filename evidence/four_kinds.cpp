@@ -62,7 +62,8 @@ BinaryMass belief_in_kind(const FourKindMass& mass, int kind) {
             .no = mass.one[0] + mass.one[1] + mass.one[2] + mass.regular,
             .unknown = mixed + mass.unknown};
   }
-  BinaryMass result{.yes = mass.one[kind], .no = mass.other, .unknown = mass.one_or_other[kind] + mass.regular + mass.unknown};
+  BinaryMass result{
+      .yes = mass.one[kind], .no = mass.other, .unknown = mass.one_or_other[kind] + mass.regular + mass.unknown};
   for (int other = 0; other < 3; ++other) {
     if (other != kind) result.no += mass.one[other] + mass.one_or_other[other];
   }

@@ -10,9 +10,9 @@
 
 namespace credo::evidence {
 
-/// Masses on a frame of four exclusive kinds: three regular ones (0, 1, 2) and "other" (3). Only the focal sets that two
-/// complementary criteria can leave (Clerentin et al., sec. 3.2): they never conflict. The masses sum to 1.
-/// The caller gives the kinds their meaning: corner, edge, wall, other.
+/// Masses on a frame of four exclusive kinds: three regular ones (0, 1, 2) and "other" (3). Only the focal sets that
+/// two complementary criteria can leave (Clerentin et al., sec. 3.2): they never conflict. The masses sum to 1. The
+/// caller gives the kinds their meaning: corner, edge, wall, other.
 struct FourKindMass {
   std::array<double, 3> one{};           ///< m({i})
   std::array<double, 3> one_or_other{};  ///< m({i, other})
@@ -21,7 +21,8 @@ struct FourKindMass {
   double unknown = 1.0;
 };
 
-/// First criterion: which of the regular kinds it would be, if it is one. m({i, other}), i = 0 .. 2; the rest is ignorance.
+/// First criterion: which of the regular kinds it would be, if it is one. m({i, other}), i = 0 .. 2; the rest is
+/// ignorance.
 struct WhichKind {
   std::array<double, 3> one_or_other{};
   double unknown = 1.0;
@@ -36,8 +37,8 @@ struct WhetherRegular {
 
 /// Breakpoints of the first criterion, in the caller's unit. \see which_kind
 struct WhichKindParams {
-  double committed = 0.9;    ///< mass that is not ignorance
-  double level_until = 10.0; ///< |deviation| up to which it is kind 2 alone
+  double committed = 0.9;         ///< mass that is not ignorance
+  double level_until = 10.0;      ///< |deviation| up to which it is kind 2 alone
   double level_zero_from = 25.0;  ///< |deviation| from which it is kind 0 or 1 alone
 };
 
@@ -48,8 +49,8 @@ struct WhetherRegularParams {
   double other_from = 0.20;
 };
 
-/// Kind 0 for a deviation well below zero, kind 1 well above, kind 2 about zero; linear between, in complementary shares. For
-/// junctions: the interior angle on the robot's side minus 180 degrees -> corner, edge, wall.
+/// Kind 0 for a deviation well below zero, kind 1 well above, kind 2 about zero; linear between, in complementary
+/// shares. For junctions: the interior angle on the robot's side minus 180 degrees -> corner, edge, wall.
 [[nodiscard]] WhichKind which_kind(double deviation, const WhichKindParams& params = {});
 
 /// Regular for a small gap, other for a large one. For junctions: the distance between the ends of the two segments.

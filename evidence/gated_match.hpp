@@ -18,8 +18,8 @@ struct GatedMatch {
 /// Largest conflict between the criteria at which a match is accepted (Clerentin et al., sec. 4.2).
 inline constexpr double kMaxMatchConflict = 0.7;
 
-/// Match where the criteria do not conflict too much and say YES more than NO. Conflict equal to the limit passes; YES equal to
-/// NO does not (both to 1e-12).
+/// Match where the criteria do not conflict too much and say YES more than NO. Conflict equal to the limit passes; YES
+/// equal to NO does not (both to 1e-12).
 [[nodiscard]] GatedMatch gated_match(std::span<const BinaryMass> criteria, double max_conflict = kMaxMatchConflict);
 
 }  // namespace credo::evidence

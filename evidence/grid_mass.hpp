@@ -9,10 +9,10 @@
 
 namespace credo::evidence {
 
-/// Masses on the free frame of a grid cell, {empty, occupied}, whose two elements may overlap: `conflict` is the mass of
-/// empty-and-occupied (the paradox), `unknown` that of empty-or-occupied. They sum to 1. Under Shafer's model the overlap
-/// is the empty set and `conflict` is its mass: on two elements the DSm classic rule and the TBM conjunctive rule are the
-/// same table.
+/// Masses on the free frame of a grid cell, {empty, occupied}, whose two elements may overlap: `conflict` is the mass
+/// of empty-and-occupied (the paradox), `unknown` that of empty-or-occupied. They sum to 1. Under Shafer's model the
+/// overlap is the empty set and `conflict` is its mass: on two elements the DSm classic rule and the TBM conjunctive
+/// rule are the same table.
 struct GridMass {
   double empty = 0.0;
   double occupied = 0.0;
@@ -21,8 +21,8 @@ struct GridMass {
 
   [[nodiscard]] static constexpr GridMass vacuous() { return {}; }
   /// From the committed masses; the rest is ignorance.
-  /// \throws std::invalid_argument unless all are >= 0 and sum to at most 1 (tolerance 1e-9: a sum that exceeds 1 by less
-  ///         is divided out).
+  /// \throws std::invalid_argument unless all are >= 0 and sum to at most 1 (tolerance 1e-9: a sum that exceeds 1 by
+  ///         less is divided out).
   [[nodiscard]] static GridMass from(double empty, double occupied, double conflict = 0.0);
 
   friend constexpr bool operator==(const GridMass&, const GridMass&) = default;
@@ -37,8 +37,8 @@ enum class GridModel {
 /// The non-empty elements of the frame. kConflict is one under the free model only.
 enum class GridElement { kEmpty, kOccupied, kConflict, kUnknown };
 
-/// DSm classic rule, closed form: associative, commutative, the vacuous mass is neutral (Li X. 2006, eq. (3); Li X. 2007, eq. (4)). The conflict
-/// absorbs: it never shrinks, so decide by normalised masses, not by Bel.
+/// DSm classic rule, closed form: associative, commutative, the vacuous mass is neutral (Li X. 2006, eq. (3); Li X.
+/// 2007, eq. (4)). The conflict absorbs: it never shrinks, so decide by normalised masses, not by Bel.
 [[nodiscard]] GridMass dsmc(const GridMass& a, const GridMass& b);
 /// n-ary; no source gives the vacuous mass.
 [[nodiscard]] GridMass dsmc(std::span<const GridMass> sources);
@@ -65,8 +65,8 @@ enum class GridElement { kEmpty, kOccupied, kConflict, kUnknown };
 /// Generalised pignistic probability: masses are shared by the number of Venn regions (DSm cardinality).
 /// \throws std::domain_error at total conflict under the exclusive model.
 [[nodiscard]] double pignistic(const GridMass& mass, GridElement element, GridModel model);
-/// DSmP: masses are shared in proportion to what the single regions were given, plus epsilon each; 0/0 takes its limit, the
-/// pignistic share. Under the exclusive model the conflict is divided out first.
+/// DSmP: masses are shared in proportion to what the single regions were given, plus epsilon each; 0/0 takes its limit,
+/// the pignistic share. Under the exclusive model the conflict is divided out first.
 /// \param epsilon  >= 0
 /// \throws std::domain_error at total conflict under the exclusive model.
 [[nodiscard]] double dsmp(const GridMass& mass, GridElement element, GridModel model, double epsilon);

@@ -15,9 +15,9 @@
 namespace credo::evidence {
 
 /// All evidence about a cell as the logarithms of three commonalities, each <= 0. The conjunctive rule multiplies
-/// commonalities, so taking evidence in is three additions, merging two cells too, and taking a contribution out again three
-/// subtractions. {0, 0, 0} is the cell that nothing is known about. Masses never underflow: DSmC, TBM, Dempster's and Bayes'
-/// rule are read-outs of the same cell (docs/equations.md).
+/// commonalities, so taking evidence in is three additions, merging two cells too, and taking a contribution out again
+/// three subtractions. {0, 0, 0} is the cell that nothing is known about. Masses never underflow: DSmC, TBM, Dempster's
+/// and Bayes' rule are read-outs of the same cell (docs/equations.md).
 template <typename Real>
 struct BasicLogCommonality {
   Real empty = 0;     ///< ln(m(empty) + m(unknown))
@@ -52,9 +52,9 @@ using LogCommonality = BasicLogCommonality<double>;
 using LogCommonalityF = BasicLogCommonality<float>;  ///< sums depend on their order in the last digits
 
 /// The cell of a map: Q11.20 fixed point. Sums are bit-identical in any order, thread and robot.
-/// One increment is off by at most 2^-21 in each logarithm. The range is [-2048, 0]: at the reliability 0.99, whose strongest
-/// increment is ln 0.01, room for 444 of the strongest. Sums stop at the floor; they stay independent of the order,
-/// because contributions are never positive, but what was beyond is lost: `saturated` tells.
+/// One increment is off by at most 2^-21 in each logarithm. The range is [-2048, 0]: at the reliability 0.99, whose
+/// strongest increment is ln 0.01, room for 444 of the strongest. Sums stop at the floor; they stay independent of the
+/// order, because contributions are never positive, but what was beyond is lost: `saturated` tells.
 struct FixedLogCommonality {
   static constexpr int kFractionBits = 20;
   static constexpr double kUnit = 1.0 / (1 << kFractionBits);
@@ -100,10 +100,10 @@ struct FixedLogCommonality {
 };
 static_assert(sizeof(FixedLogCommonality) == 12 && std::is_trivially_copyable_v<FixedLogCommonality>);
 
-/// The evidence of one reading, discounted: log q = ln(1 - r + r q), computed without cancellation. The vacuous mass and
-/// reliability 0 give exactly {0, 0, 0}.
-/// \param reliability  in [0, 1). It keeps every commonality above zero: with 1, a mass without ignorance would be a certainty
-///                     that no later evidence could undo.
+/// The evidence of one reading, discounted: log q = ln(1 - r + r q), computed without cancellation. The vacuous mass
+/// and reliability 0 give exactly {0, 0, 0}.
+/// \param reliability  in [0, 1). It keeps every commonality above zero: with 1, a mass without ignorance would be a
+///                     certainty that no later evidence could undo.
 /// \throws std::invalid_argument unless 0 <= reliability < 1 and the mass is one.
 [[nodiscard]] inline LogCommonality log_commonality(const GridMass& mass, double reliability) {
   if (!(reliability >= 0.0 && reliability < 1.0)) {
@@ -115,9 +115,7 @@ static_assert(sizeof(FixedLogCommonality) == 12 && std::is_trivially_copyable_v<
     throw std::invalid_argument("not a mass: the four masses must be >= 0 and sum to 1");
   }
   // 0.0 - x, so that nothing is +0 and not -0. A sum that rounding has lifted over 1 stops at 1.
-  const auto log_q = [reliability](double outside) {
-    return std::log1p(0.0 - reliability * std::min(outside, 1.0));
-  };
+  const auto log_q = [reliability](double outside) { return std::log1p(0.0 - reliability * std::min(outside, 1.0)); };
   return {log_q(mass.occupied + mass.conflict), log_q(mass.empty + mass.conflict),
           log_q(mass.empty + mass.occupied + mass.conflict)};
 }
@@ -142,13 +140,15 @@ static_assert(sizeof(FixedLogCommonality) == 12 && std::is_trivially_copyable_v<
   return {decay(cell.empty), decay(cell.occupied), decay(cell.unknown)};
 }
 
-/// All that was said for one of the two and not for the other: ln(q(empty) / q(unknown)) >= 0, a sum over the readings. A
-/// Bayes filter's log-odds of occupied are evidence_for_occupied - evidence_for_empty.
+/// All that was said for one of the two and not for the other: ln(q(empty) / q(unknown)) >= 0, a sum over the readings.
+/// A Bayes filter's log-odds of occupied are evidence_for_occupied - evidence_for_empty.
 [[nodiscard]] constexpr double evidence_for_empty(const LogCommonality& cell) { return cell.empty - cell.unknown; }
-[[nodiscard]] constexpr double evidence_for_occupied(const LogCommonality& cell) { return cell.occupied - cell.unknown; }
+[[nodiscard]] constexpr double evidence_for_occupied(const LogCommonality& cell) {
+  return cell.occupied - cell.unknown;
+}
 
-/// How much of the evidence contradicts the rest: 2 min(v_e, v_o) / (v_e + v_o), v the evidence for each. 0: one-sided or none;
-/// 1: balanced. Unlike the mass of the conflict it does not tend to 1 as readings accumulate.
+/// How much of the evidence contradicts the rest: 2 min(v_e, v_o) / (v_e + v_o), v the evidence for each. 0: one-sided
+/// or none; 1: balanced. Unlike the mass of the conflict it does not tend to 1 as readings accumulate.
 [[nodiscard]] constexpr double contested(const LogCommonality& cell) {
   const double for_empty = std::max(0.0, evidence_for_empty(cell));
   const double for_occupied = std::max(0.0, evidence_for_occupied(cell));
@@ -176,8 +176,8 @@ static_assert(sizeof(FixedLogCommonality) == 12 && std::is_trivially_copyable_v<
   return {raw.empty / sum, raw.occupied / sum, raw.conflict / sum, raw.unknown / sum};
 }
 
-/// The masses under Dempster's rule, conflict divided out. Exact however much evidence there is: exponents are taken relative
-/// to the larger, so there is no total conflict in this form.
+/// The masses under Dempster's rule, conflict divided out. Exact however much evidence there is: exponents are taken
+/// relative to the larger, so there is no total conflict in this form.
 [[nodiscard]] inline GridMass normalised_masses(const LogCommonality& cell) {
   const double largest = std::max(cell.empty, cell.occupied);
   const double empty = -std::exp(cell.empty - largest) * std::expm1(std::min(0.0, cell.unknown - cell.empty));

@@ -82,8 +82,8 @@ void OpenWorldMatcher::combine(std::span<const BinaryMass> evidence) {
   for (std::size_t i = count; i-- > 0;) suffix_[i] = suffix_[i + 1] * (evidence[i].no + evidence[i].unknown);
   all_out_ = suffix_[0];
 
-  // Clerentin et al., sec. 4.1: m(P_i) = m_i(P_i) prod_{j != i} (1 - m_j(P_j)), m(*) = prod m_j(not P_j), and in Theta what
-  // of prod (1 - m_j(P_j)) is not *. One candidate after the other, so that nothing is subtracted.
+  // Clerentin et al., sec. 4.1: m(P_i) = m_i(P_i) prod_{j != i} (1 - m_j(P_j)), m(*) = prod m_j(not P_j), and in Theta
+  // what of prod (1 - m_j(P_j)) is not *. One candidate after the other, so that nothing is subtracted.
   open_.match.resize(count);
   double prefix = 1.0, claimed = 0.0;
   open_.none = 1.0;
@@ -125,8 +125,8 @@ const OpenWorldValues& OpenWorldMatcher::plausibility() {
   return plausibility_;
 }
 
-// A disjunction of k elements, * among them, gives 1/k = int_0^1 x^(k-1) dx to each. Summed over all disjunctions the integrand
-// factorises: with b = m_i(not P_i), c = m_i(Theta),
+// A disjunction of k elements, * among them, gives 1/k = int_0^1 x^(k-1) dx to each. Summed over all disjunctions the
+// integrand factorises: with b = m_i(not P_i), c = m_i(Theta),
 //   K BetP(*)   = int_0^1 prod_i (b_i + c_i x) dx
 //   K BetP(P_j) = m(P_j) + int_0^1 c_j x prod_{i != j} (b_i + c_i x) dx,
 // polynomials of degree <= p, which Gauss-Legendre integrates exactly, with positive terms only.
@@ -140,7 +140,8 @@ const OpenWorldValues& OpenWorldMatcher::pignistic() {
   factors_.resize(count + 1);
   factors_[count] = 1.0;
   for (const Node& node : std::span(nodes_).subspan(rule * (rule - 1) / 2, rule)) {
-    for (std::size_t i = count; i-- > 0;) factors_[i] = factors_[i + 1] * (evidence_[i].no + evidence_[i].unknown * node.x);
+    for (std::size_t i = count; i-- > 0;)
+      factors_[i] = factors_[i + 1] * (evidence_[i].no + evidence_[i].unknown * node.x);
     pignistic_.none += node.weight * factors_[0];
     double prefix = node.weight;
     for (std::size_t i = 0; i < count; ++i) {

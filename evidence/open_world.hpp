@@ -18,7 +18,7 @@ struct OpenWorldMasses {
   std::vector<double> match;  ///< m(P_i), one for each candidate
   double none = 1.0;          ///< m(*)
   double unknown = 0.0;
-  double conflict = 0.0;      ///< of the open combination; kept for information once normalised
+  double conflict = 0.0;  ///< of the open combination; kept for information once normalised
 };
 
 /// One number for each of {P_1 .. P_p, *}.
@@ -43,10 +43,10 @@ struct OpenWorldDecision {
 /// Lead in pignistic probability below which a match is ambiguous.
 inline constexpr double kMinPignisticMargin = 0.05;
 
-/// Matches one prediction against p candidates. Keeps its memory: no allocation once it has seen the largest p (or after
-/// reserve). The evidence about candidate i is a mass on "the prediction is P_i": yes = m_i(P_i), no = m_i(not P_i).
-/// Products are prefix/suffix products: O(p), nothing is divided by 1 - m_i(P_i).
-/// Call combine first; the references returned are valid until the next combine.
+/// Matches one prediction against p candidates. Keeps its memory: no allocation once it has seen the largest p (or
+/// after reserve). The evidence about candidate i is a mass on "the prediction is P_i": yes = m_i(P_i), no = m_i(not
+/// P_i). Products are prefix/suffix products: O(p), nothing is divided by 1 - m_i(P_i). Call combine first; the
+/// references returned are valid until the next combine.
 class OpenWorldMatcher {
  public:
   void reserve(std::size_t candidates);
@@ -54,8 +54,8 @@ class OpenWorldMatcher {
   /// Without candidates all the mass is on *.
   void combine(std::span<const BinaryMass> evidence);
 
-  /// Two candidates are certain, each for itself: nothing is left to normalise. (More than 300 candidates that each claim a
-  /// mass of 0.9 underflow and count as such.)
+  /// Two candidates are certain, each for itself: nothing is left to normalise. (More than 300 candidates that each
+  /// claim a mass of 0.9 underflow and count as such.)
   [[nodiscard]] bool total_conflict() const { return kept_ <= 0.0; }
 
   /// Unnormalised masses (TBM).
@@ -68,11 +68,11 @@ class OpenWorldMatcher {
   /// Precondition: !total_conflict().
   [[nodiscard]] const OpenWorldValues& pignistic();
 
-  /// The paper's: the largest mass of {P_1 .. P_p, *}, ties to the lowest index, * last; none where the lumped ignorance is
-  /// larger still; undecided at total conflict.
+  /// The paper's: the largest mass of {P_1 .. P_p, *}, ties to the lowest index, * last; none where the lumped
+  /// ignorance is larger still; undecided at total conflict.
   [[nodiscard]] OpenWorldDecision decide_by_mass() const;
-  /// The default: the largest pignistic probability of {P_1 .. P_p, *}; undecided where it does not lead by `min_margin`, and
-  /// at total conflict. The ignorance never competes.
+  /// The default: the largest pignistic probability of {P_1 .. P_p, *}; undecided where it does not lead by
+  /// `min_margin`, and at total conflict. The ignorance never competes.
   [[nodiscard]] OpenWorldDecision decide_by_pignistic(double min_margin = kMinPignisticMargin);
 
  private:
@@ -94,8 +94,8 @@ class OpenWorldMatcher {
 };
 
 /// Weight of giving candidate i to a prediction in a global assignment where leaving it unassigned weighs 0: ln of
-/// Pl(P_i) / Pl(*) = ln((1 - b) / (1 - a)). The assignment of the largest sum is the most plausible relation. Only positive
-/// weights need be offered. +inf for a = 1, -inf for b = 1.
+/// Pl(P_i) / Pl(*) = ln((1 - b) / (1 - a)). The assignment of the largest sum is the most plausible relation. Only
+/// positive weights need be offered. +inf for a = 1, -inf for b = 1.
 [[nodiscard]] double assignment_weight(const BinaryMass& evidence);
 
 }  // namespace credo::evidence

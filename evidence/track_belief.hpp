@@ -10,8 +10,8 @@
 namespace credo::evidence {
 
 struct TrackBeliefParams {
-  /// Conflict to ignorance fits the published life of a track (lost at the fifth miss) and lets no track outlive six misses;
-  /// under Dempster's rule a track of yes = 1 never dies (docs/equations.md).
+  /// Conflict to ignorance fits the published life of a track (lost at the fifth miss) and lets no track outlive six
+  /// misses; under Dempster's rule a track of yes = 1 never dies (docs/equations.md).
   FusionRule rule = FusionRule::kConflictToIgnorance;
   /// What an acquisition without a match says (Clerentin et al., sec. 4.4).
   BinaryMass miss{.yes = 0.0, .no = 0.2, .unknown = 0.8};
@@ -24,8 +24,8 @@ struct TrackBelief {
   bool keep = true;       ///< false where NO exceeds YES (by more than 1e-12): drop the track
 };
 
-/// An observation that denies itself is an unreliable source: its mass discounted by the reliability 1 - m(NO). One that says
-/// no YES at all is kept as it is (Clerentin et al., sec. 4.4).
+/// An observation that denies itself is an unreliable source: its mass discounted by the reliability 1 - m(NO). One
+/// that says no YES at all is kept as it is (Clerentin et al., sec. 4.4).
 [[nodiscard]] BinaryMass discount_by_own_denial(const BinaryMass& observation);
 
 /// What a match contributes to a track: its YES; the rest is ignorance, never NO.

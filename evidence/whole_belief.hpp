@@ -16,15 +16,15 @@ struct Part {
   double reliability = 1.0;  ///< in [0, 1]
 };
 
-/// Belief in a whole from criteria of its own and from its parts, as Clerentin et al., sec. 4.5, have it for a localization:
-/// the criteria and all parts, each discounted by its reliability, fused n-ary. Dempster's rule saturates with many
-/// parts; conflict to ignorance falls with their number.
+/// Belief in a whole from criteria of its own and from its parts, as Clerentin et al., sec. 4.5, have it for a
+/// localization: the criteria and all parts, each discounted by its reliability, fused n-ary. Dempster's rule saturates
+/// with many parts; conflict to ignorance falls with their number.
 /// \returns nothing at total conflict under Dempster's rule.
 [[nodiscard]] std::optional<FusedBinaryMass> whole_from_all_parts(std::span<const BinaryMass> criteria,
                                                                   std::span<const Part> parts, FusionRule rule);
 
-/// The default: the discounted parts are averaged first, then fused with the criteria, the conflict moved to ignorance once.
-/// Does not depend on the number of equal parts. No part gives a vacuous mean.
+/// The default: the discounted parts are averaged first, then fused with the criteria, the conflict moved to ignorance
+/// once. Does not depend on the number of equal parts. No part gives a vacuous mean.
 [[nodiscard]] FusedBinaryMass whole_from_mean_part(std::span<const BinaryMass> criteria, std::span<const Part> parts);
 
 /// The mean of the discounted masses; vacuous without parts.

@@ -19,8 +19,8 @@ PoseEstimate compose(const PoseEstimate& T_a_b, const PoseEstimate& T_b_c) {
   by_first(1, 2) = c * T_b_c.pose.x - s * T_b_c.pose.y;
   Eigen::Matrix3d by_second = Eigen::Matrix3d::Identity();
   by_second.topLeftCorner<2, 2>() << c, -s, s, c;
-  return {T_a_b.pose * T_b_c.pose, by_first * T_a_b.covariance * by_first.transpose() +
-                                       by_second * T_b_c.covariance * by_second.transpose()};
+  return {T_a_b.pose * T_b_c.pose,
+          by_first * T_a_b.covariance * by_first.transpose() + by_second * T_b_c.covariance * by_second.transpose()};
 }
 
 std::ostream& operator<<(std::ostream& out, const Pose2& pose) {
@@ -29,8 +29,8 @@ std::ostream& operator<<(std::ostream& out, const Pose2& pose) {
 
 std::ostream& operator<<(std::ostream& out, const PoseEstimate& estimate) {
   return out << estimate.pose << " +- (" << std::sqrt(estimate.covariance(0, 0)) << " m, "
-             << std::sqrt(estimate.covariance(1, 1)) << " m, "
-             << to_degrees(std::sqrt(estimate.covariance(2, 2))) << " deg)";
+             << std::sqrt(estimate.covariance(1, 1)) << " m, " << to_degrees(std::sqrt(estimate.covariance(2, 2)))
+             << " deg)";
 }
 
 }  // namespace credo::geometry

@@ -8,9 +8,7 @@
 
 namespace credo::geometry {
 
-Segment operator*(const Pose2& T_a_b, const Segment& segment_b) {
-  return {T_a_b * segment_b.a, T_a_b * segment_b.b};
-}
+Segment operator*(const Pose2& T_a_b, const Segment& segment_b) { return {T_a_b * segment_b.a, T_a_b * segment_b.b}; }
 
 double distance(const Eigen::Vector2d& p, const Segment& segment) {
   const Eigen::Vector2d along = segment.b - segment.a;

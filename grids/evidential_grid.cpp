@@ -126,10 +126,10 @@ void EvidentialGrid::remove(const EvidentialGrid& other) {
   require_same(georeference_, other.georeference_);
   for (const auto& [index, what] : other.tiles_) {
     const Tile* tile = find_tile(index);
-    const bool holds = tile == nullptr ? what.is_vacuous()
-                                       : holds_as_much(tile->empty, what.empty) &&
-                                             holds_as_much(tile->occupied, what.occupied) &&
-                                             holds_as_much(tile->unknown, what.unknown);
+    const bool holds = tile == nullptr
+                           ? what.is_vacuous()
+                           : holds_as_much(tile->empty, what.empty) && holds_as_much(tile->occupied, what.occupied) &&
+                                 holds_as_much(tile->unknown, what.unknown);
     if (!holds)
       throw std::invalid_argument("the map that is to be taken out was not merged into this one: this one holds less");
   }

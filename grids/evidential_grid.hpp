@@ -21,8 +21,8 @@ struct TileIndex {
   friend auto operator<=>(const TileIndex&, const TileIndex&) = default;
 };
 
-/// A square of cells, one array per channel of evidence::FixedLogCommonality, row after row from the lowest; all zero is
-/// vacuous.
+/// A square of cells, one array per channel of evidence::FixedLogCommonality, row after row from the lowest; all zero
+/// is vacuous.
 struct Tile {
   static constexpr int kShift = 6;
   static constexpr int kSide = 1 << kShift;  // cells
@@ -42,10 +42,10 @@ struct Tile {
   return ((cell.y & (Tile::kSide - 1)) << Tile::kShift) | (cell.x & (Tile::kSide - 1));
 }
 
-/// An evidential grid map: every cell is a product of commonalities, kept as a fixed-point logarithm. An update is three
-/// integer additions, so is a merge, and the sum is the same to the last bit whatever the order, the thread or the robot.
-/// The grid has no edge: tiles appear where there is evidence, and an absent tile is vacuous. A cell that has taken in so
-/// much that it reaches the floor of its range (evidence::FixedLogCommonality) stays there.
+/// An evidential grid map: every cell is a product of commonalities, kept as a fixed-point logarithm. An update is
+/// three integer additions, so is a merge, and the sum is the same to the last bit whatever the order, the thread or
+/// the robot. The grid has no edge: tiles appear where there is evidence, and an absent tile is vacuous. A cell that
+/// has taken in so much that it reaches the floor of its range (evidence::FixedLogCommonality) stays there.
 class EvidentialGrid {
  public:
   /// 2^26 cells, 0.8 GB: a square of 400 m with cells of 5 cm.
@@ -71,13 +71,14 @@ class EvidentialGrid {
   /// All tiles, by row and column.
   [[nodiscard]] const std::map<TileIndex, Tile>& tiles() const { return tiles_; }
 
-  /// Combines another robot's, or another sensor's, map of the same georeference: commutative and associative to the bit.
-  /// Evidence that both maps hold is counted twice: merge maps of disjoint readings.
+  /// Combines another robot's, or another sensor's, map of the same georeference: commutative and associative to the
+  /// bit. Evidence that both maps hold is counted twice: merge maps of disjoint readings.
   /// \throws std::invalid_argument if the georeferences differ.
   void merge(const EvidentialGrid& other);
-  /// Takes back what `merge` added: the grid is as if `other` had never been merged, but for cells at the floor, which stay.
-  /// \throws std::invalid_argument if the georeferences differ, or a cell holds less evidence than is to be taken out, so
-  ///         that `other` cannot have been merged; the grid is unchanged then.
+  /// Takes back what `merge` added: the grid is as if `other` had never been merged, but for cells at the floor, which
+  /// stay.
+  /// \throws std::invalid_argument if the georeferences differ, or a cell holds less evidence than is to be taken out,
+  ///         so that `other` cannot have been merged; the grid is unchanged then.
   void remove(const EvidentialGrid& other);
   /// Drops the tiles that hold no evidence.
   void prune();

@@ -14,15 +14,14 @@ enum class CellState { kUnknown, kEmpty, kOccupied, kContested };
 
 /// When a cell is called what. Probabilities are pignistic.
 struct DecisionParams {
-  double unknown_above = 0.5;    ///< more ignorance than this: unknown
-  double occupied_from = 0.65;   ///< probability of "occupied" from which a cell is occupied (that of map_server)
-  double empty_until = 0.196;    ///< probability of "occupied" up to which a cell is empty (that of map_server)
-  double contested_from = 0.8;   ///< from this balance of evidence for and against: contested, whatever the probability
+  double unknown_above = 0.5;   ///< more ignorance than this: unknown
+  double occupied_from = 0.65;  ///< probability of "occupied" from which a cell is occupied (that of map_server)
+  double empty_until = 0.196;   ///< probability of "occupied" up to which a cell is empty (that of map_server)
+  double contested_from = 0.8;  ///< from this balance of evidence for and against: contested, whatever the probability
 };
 
 /// What to call a cell. The read-outs themselves are those of evidence::LogCommonality.
-[[nodiscard]] CellState decide(const evidence::FixedLogCommonality& cell,
-                               const DecisionParams& params = {});
+[[nodiscard]] CellState decide(const evidence::FixedLogCommonality& cell, const DecisionParams& params = {});
 
 /// What one number per cell can be asked for.
 enum class Layer {

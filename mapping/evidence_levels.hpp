@@ -18,7 +18,7 @@ inline constexpr int kLevels = 32;
 
 /// What a mass adds to a cell, at every level of `reliability`.
 [[nodiscard]] inline std::array<evidence::FixedLogCommonality, kLevels + 1> increments(const evidence::GridMass& mass,
-                                                                                      double reliability) {
+                                                                                       double reliability) {
   std::array<evidence::FixedLogCommonality, kLevels + 1> table;
   for (int level = 0; level <= kLevels; ++level)
     table[level] = evidence::quantise(evidence::log_commonality(mass, reliability * reliability_of(level)));

@@ -16,7 +16,7 @@
 namespace credo::mapping {
 namespace {
 
-constexpr double kTableBins = 400.0;  // at most, over the range
+constexpr double kTableBins = 400.0;                            // at most, over the range
 constexpr std::size_t kMostTableBytes = std::size_t{64} << 20;  // of the increments kept
 
 /// Narrows [low, high] to the x on the inner side of an edge through the apex: all (x, dy) with

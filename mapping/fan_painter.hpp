@@ -16,8 +16,8 @@
 
 namespace credo::mapping {
 
-/// Spreads single sonar readings over the fan of cells that they speak about ("restricted spreading", Li X. 2007, sec. 5.2).
-/// Increments come from tables over reading, distance and angle, made when first needed.
+/// Spreads single sonar readings over the fan of cells that they speak about ("restricted spreading", Li X. 2007, sec.
+/// 5.2). Increments come from tables over reading, distance and angle, made when first needed.
 class FanPainter {
  public:
   static constexpr int kAngleBins = 16;  ///< from the axis to the edge, of equal steps in the squared sine
@@ -35,7 +35,8 @@ class FanPainter {
   /// \param reading_m         at most the ring's range_max; inf: no echo
   /// \param reliability       of the pose, in [0, 1]
   /// \throws std::out_of_range if the pose is too far away to be addressed; the grid is unchanged then.
-  void paint(grids::EvidentialGrid& grid, const geometry::Pose2& T_map_transducer, double reading_m, double reliability);
+  void paint(grids::EvidentialGrid& grid, const geometry::Pose2& T_map_transducer, double reading_m,
+             double reliability);
 
  private:
   struct Source {

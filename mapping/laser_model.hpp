@@ -10,28 +10,29 @@
 
 namespace credo::mapping {
 
-/// What a beam says: free up to `reading - free_margin`, occupied within the half-width of the reading, nothing elsewhere.
+/// What a beam says: free up to `reading - free_margin`, occupied within the half-width of the reading, nothing
+/// elsewhere.
 template <typename Model>
 concept LaserModel = requires(const Model& model, const sensors::RangeNoise& noise, double reading_m) {
   { model.free_mass() } -> std::convertible_to<evidence::GridMass>;
   { model.hit_mass() } -> std::convertible_to<evidence::GridMass>;
-  { model.free_margin(reading_m, noise) } -> std::convertible_to<double>;      // before the reading [m]
-  { model.half_width(reading_m, noise) } -> std::convertible_to<double>;       // of the occupied interval, <= margin [m]
-  { model.hit_share(reading_m, noise) } -> std::convertible_to<double>;        // discounts hit_mass further, in [0, 1]
-  { model.reliability() } -> std::convertible_to<double>;                      // discounts both, in [0, 1)
+  { model.free_margin(reading_m, noise) } -> std::convertible_to<double>;  // before the reading [m]
+  { model.half_width(reading_m, noise) } -> std::convertible_to<double>;   // of the occupied interval, <= margin [m]
+  { model.hit_share(reading_m, noise) } -> std::convertible_to<double>;    // discounts hit_mass further, in [0, 1]
+  { model.reliability() } -> std::convertible_to<double>;                  // discounts both, in [0, 1)
 };
 
 struct Li2006LaserParams {
-  double epsilon_m = 0.05;        ///< half of the occupied interval (Li X. 2006, eqs. (10)-(12))
-  double free_sigmas = 3.0;       ///< free space ends at least this many sigma of the range before the reading
-  double hit_sigmas = 1.0;        ///< and the occupied interval has at least this many to either side
-  double reliability = 0.95;      ///< discounts every reading
+  double epsilon_m = 0.05;    ///< half of the occupied interval (Li X. 2006, eqs. (10)-(12))
+  double free_sigmas = 3.0;   ///< free space ends at least this many sigma of the range before the reading
+  double hit_sigmas = 1.0;    ///< and the occupied interval has at least this many to either side
+  double reliability = 0.95;  ///< discounts every reading
 };
 
-/// Laser of Li X. 2006, eqs. (10)-(12): free (.9, .05, .05), occupied (.05, .9, .05). The paper's +-5 cm holds for time of
-/// flight; a triangulating range finder's error grows with the square of the range. So free space ends 3 sigma before the
-/// reading, the occupied interval is a sigma wide to either side, and, as the wall is in one place of it only, its evidence
-/// is discounted by the share eps / half_width.
+/// Laser of Li X. 2006, eqs. (10)-(12): free (.9, .05, .05), occupied (.05, .9, .05). The paper's +-5 cm holds for time
+/// of flight; a triangulating range finder's error grows with the square of the range. So free space ends 3 sigma
+/// before the reading, the occupied interval is a sigma wide to either side, and, as the wall is in one place of it
+/// only, its evidence is discounted by the share eps / half_width.
 class Li2006Laser {
  public:
   /// \throws std::invalid_argument if a parameter is out of its range.

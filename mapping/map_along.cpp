@@ -15,8 +15,9 @@ namespace {
 /// Whether a trajectory has a pose within `max_gap_s` of a time, on the side or sides that it is interpolated from.
 bool covers(const sensors::MotionPath& trajectory, sensors::Timestamp time, double max_gap_s) {
   const auto& rows = trajectory.rows();
-  const auto after = std::lower_bound(rows.begin(), rows.end(), time,
-                                      [](const sensors::OdometryReading& row, sensors::Timestamp t) { return row.time < t; });
+  const auto after =
+      std::lower_bound(rows.begin(), rows.end(), time,
+                       [](const sensors::OdometryReading& row, sensors::Timestamp t) { return row.time < t; });
   const auto near = [&](const sensors::OdometryReading& row) {
     return sensors::seconds_between(std::min(row.time, time), std::max(row.time, time)) <= max_gap_s;
   };
@@ -61,9 +62,10 @@ TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Ri
   const auto report = [&](std::size_t done) {
     if (progress) progress(static_cast<double>(done) / static_cast<double>(scans.size() + sweeps.size()));
   };
-  insert_in_batches(scans.size(), [&](std::size_t i) { insert(scans[i]); }, report);
-  insert_in_batches(sweeps.size(), [&](std::size_t i) { insert(sweeps[i]); },
-                    [&](std::size_t done) { report(scans.size() + done); });
+  insert_in_batches(
+      scans.size(), [&](std::size_t i) { insert(scans[i]); }, report);
+  insert_in_batches(
+      sweeps.size(), [&](std::size_t i) { insert(sweeps[i]); }, [&](std::size_t done) { report(scans.size() + done); });
 
   TrajectoryMap map{Mapper(rig, params.mapper).take_grid(), {}, 0};
   for (Worker& worker : workers) {

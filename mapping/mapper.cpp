@@ -87,8 +87,8 @@ void Mapper::insert(const Believed<PoseEstimate>& T_map_base, const sensors::Son
   State& s = *state_;
   const auto& rings = s.rig.sonar_rings;
   const bool there = sweep.sensor >= 0 && static_cast<std::size_t>(sweep.sensor) < rings.size();
-  require_sensor(rings, sweep.sensor, sweep.ranges_m.size(),
-                 there ? rings[sweep.sensor].T_base_transducer.size() : 0, "sonar ring");
+  require_sensor(rings, sweep.sensor, sweep.ranges_m.size(), there ? rings[sweep.sensor].T_base_transducer.size() : 0,
+                 "sonar ring");
   const sensors::SonarRing& ring = rings[sweep.sensor];
   const PoseReliability reliability(T_map_base, s.params.georeference.resolution_m, s.params.pose);
 
@@ -114,7 +114,8 @@ void Mapper::insert(const Believed<PoseEstimate>& T_map_base, const sensors::Son
       ++s.counts.out_of_range;
     } else {
       ++(no_echo ? s.counts.no_returns : s.counts.echoes);
-      s.fans[sweep.sensor].paint(s.grid, s.transducers[i], range_m, reliability.at(no_echo ? ring.range_max_m : range_m));
+      s.fans[sweep.sensor].paint(s.grid, s.transducers[i], range_m,
+                                 reliability.at(no_echo ? ring.range_max_m : range_m));
     }
   }
 }
@@ -132,8 +133,8 @@ void Mapper::insert(const Believed<PoseEstimate>& T_map_base, const sensors::Ran
     ++s.counts.refused;
     return;
   }
-  const ScanPainter::Counts counts = s.scans[scan.sensor].paint(s.grid, T_map_base.value.pose, reliability,
-                                                                scan.ranges_m, path, scan.time);
+  const ScanPainter::Counts counts =
+      s.scans[scan.sensor].paint(s.grid, T_map_base.value.pose, reliability, scan.ranges_m, path, scan.time);
   ++s.counts.scans;
   s.counts.echoes += counts.echoes;
   s.counts.no_returns += counts.no_returns;

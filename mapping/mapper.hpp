@@ -40,9 +40,9 @@ struct MappingCounts {
   friend bool operator==(const MappingCounts&, const MappingCounts&) = default;
 };
 
-/// Ranges from believed poses -> evidential grid (Li X. 2007, sec. 5; Li X. 2006, sec. 4). Only the cells of the fan or the
-/// beam's sector are touched ("restricted spreading"), each once per reading of a transducer and once per scan. An unsure
-/// pose discounts what it maps; a lost one maps nothing.
+/// Ranges from believed poses -> evidential grid (Li X. 2007, sec. 5; Li X. 2006, sec. 4). Only the cells of the fan or
+/// the beam's sector are touched ("restricted spreading"), each once per reading of a transducer and once per scan. An
+/// unsure pose discounts what it maps; a lost one maps nothing.
 class Mapper {
  public:
   /// Binds the rig's sonar rings and range finders by their index.
@@ -54,8 +54,9 @@ class Mapper {
 
   /// \param T_map_base  at the time of the reading
   /// \param path        carries the pose to when each beam, or each transducer, was fired; empty: all at once
-  /// \throws std::invalid_argument if the rig has no such sensor, the number of ranges is not that of the sensor, or the
-  ///         pose is not finite; std::out_of_range if it is too far away to be addressed. The map is unchanged then.
+  /// \throws std::invalid_argument if the rig has no such sensor, the number of ranges is not that of the sensor, or
+  ///         the pose is not finite; std::out_of_range if it is too far away to be addressed. The map is unchanged
+  ///         then.
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::SonarSweep& sweep,
               const sensors::MotionPath& path = {});
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::RangeScan& scan,
@@ -85,8 +86,8 @@ struct TrajectoryMap {
   std::int64_t without_pose = 0;  ///< readings left out for want of a pose near in time
 };
 
-/// The map of a whole drive whose poses are given: `T_map_base` holds the trajectory, in the map frame, and carries every
-/// beam to its own time. Runs on all cores; the result is the same to the last bit whatever their number.
+/// The map of a whole drive whose poses are given: `T_map_base` holds the trajectory, in the map frame, and carries
+/// every beam to its own time. Runs on all cores; the result is the same to the last bit whatever their number.
 /// \param progress  called on this thread now and then with the share done; what it throws ends the mapping
 /// \throws std::invalid_argument and std::out_of_range as `Mapper`, or if the trajectory is empty.
 [[nodiscard]] TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,

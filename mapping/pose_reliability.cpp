@@ -15,7 +15,8 @@ PoseReliability::PoseReliability(const evidence::Believed<geometry::PoseEstimate
   if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.theta))
     throw std::invalid_argument("a pose that readings are mapped from is not finite: leave its readings out");
   if (!covariance.allFinite() || covariance.diagonal().minCoeff() < 0.0)
-    throw std::invalid_argument("the covariance of a pose is not finite or has a negative variance: leave its readings out");
+    throw std::invalid_argument(
+        "the covariance of a pose is not finite or has a negative variance: leave its readings out");
   if (!(params.half_at_sigma_cells > 0.0)) throw std::invalid_argument("half_at_sigma_cells must be above 0");
 
   const double pignistic = T_map_base.belief.pignistic();

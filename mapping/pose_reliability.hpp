@@ -9,14 +9,15 @@
 namespace credo::mapping {
 
 struct PoseReliabilityParams {
-  /// Below this pignistic probability of a right pose nothing is mapped: at 0.5, a pose with more belief against it than
-  /// for it (lost) maps nothing, and one that nothing is known of maps at half strength.
+  /// Below this pignistic probability of a right pose nothing is mapped: at 0.5, a pose with more belief against it
+  /// than for it (lost) maps nothing, and one that nothing is known of maps at half strength.
   double min_pignistic = 0.5;
   /// A position error of this many cells (1-sigma, at the reading) halves what is mapped.
   double half_at_sigma_cells = 1.0;
 };
 
-/// How far a reading taken from a pose is to be trusted in a grid: the discounting rates of that pose's readings by range.
+/// How far a reading taken from a pose is to be trusted in a grid: the discounting rates of that pose's readings by
+/// range.
 class PoseReliability {
  public:
   /// \throws std::invalid_argument if the pose or its covariance is not finite or a variance is negative; the message
@@ -24,8 +25,8 @@ class PoseReliability {
   PoseReliability(const evidence::Believed<geometry::PoseEstimate>& T_map_base, double resolution_m,
                   const PoseReliabilityParams& params = {});
 
-  /// pignistic / (1 + (sigma / half)^2), with sigma^2 the larger variance of the position plus that of the heading times
-  /// range^2; 0 where nothing is to be mapped. In [0, 1].
+  /// pignistic / (1 + (sigma / half)^2), with sigma^2 the larger variance of the position plus that of the heading
+  /// times range^2; 0 where nothing is to be mapped. In [0, 1].
   [[nodiscard]] double at(double range_m) const {
     return belief_ / (1.0 + position_share_ + heading_share_ * range_m * range_m);
   }

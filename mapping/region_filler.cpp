@@ -40,21 +40,21 @@ struct RegionFiller::Winding {
 void RegionFiller::add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int region_class) {
   assert(region_class >= 0 && region_class < kClasses);
   const bool up = from.y() < to.y();
-  const Eigen::Vector2d& low = up ? from : to;   // both directions of an edge must cross a row at the same place
+  const Eigen::Vector2d& low = up ? from : to;  // both directions of an edge must cross a row at the same place
   const Eigen::Vector2d& high = up ? to : from;
   const std::int32_t begin = first_centre(low.y()), end = first_centre(high.y());
   if (begin >= end) return;
   const double slope = (high.x() - low.x()) / (high.y() - low.y());
   for (std::int32_t row = begin; row < end; ++row) {
     const double x = low.x() + (row + 0.5 - low.y()) * slope;
-    crossings_.push_back({row, first_centre(x), static_cast<std::int16_t>(region_class),
-                          static_cast<std::int16_t>(up ? 1 : -1)});
+    crossings_.push_back(
+        {row, first_centre(x), static_cast<std::int16_t>(region_class), static_cast<std::int16_t>(up ? 1 : -1)});
   }
 }
 
 void RegionFiller::sort_by_row() {
-  const auto [lowest, highest] = std::minmax_element(crossings_.begin(), crossings_.end(),
-                                                     [](const Crossing& a, const Crossing& b) { return a.row < b.row; });
+  const auto [lowest, highest] = std::minmax_element(
+      crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) { return a.row < b.row; });
   first_row_ = lowest->row;
   row_begin_.assign(static_cast<std::size_t>(highest->row - first_row_) + 2, 0);
   for (const Crossing& crossing : crossings_) ++row_begin_[crossing.row - first_row_ + 1];
@@ -76,11 +76,12 @@ void RegionFiller::fill_row(std::span<Crossing> row, std::span<const FixedLogCom
     winding.cross(row[i]);
     if (winding.inside == 0 || row[i].column == row[i + 1].column) continue;
     const FixedLogCommonality& increment = increments[winding.highest()];
-    window_.for_run(row[i].row, row[i].column, row[i + 1].column, [&increment](grids::Tile& tile, int place, int count) {
-      add_to_channel(tile.empty.data() + place, count, increment.empty);
-      add_to_channel(tile.occupied.data() + place, count, increment.occupied);
-      add_to_channel(tile.unknown.data() + place, count, increment.unknown);
-    });
+    window_.for_run(row[i].row, row[i].column, row[i + 1].column,
+                    [&increment](grids::Tile& tile, int place, int count) {
+                      add_to_channel(tile.empty.data() + place, count, increment.empty);
+                      add_to_channel(tile.occupied.data() + place, count, increment.occupied);
+                      add_to_channel(tile.unknown.data() + place, count, increment.unknown);
+                    });
   }
 }
 

@@ -13,9 +13,9 @@
 
 namespace credo::mapping {
 
-/// Adds evidence to all cells whose centres lie in regions of the plane, row by row. A region is a class, given by closed
-/// contours of directed edges; a cell is inside if the contours wind around it. Where regions overlap the higher class
-/// counts: every cell is updated once.
+/// Adds evidence to all cells whose centres lie in regions of the plane, row by row. A region is a class, given by
+/// closed contours of directed edges; a cell is inside if the contours wind around it. Where regions overlap the higher
+/// class counts: every cell is updated once.
 class RegionFiller {
  public:
   static constexpr int kClasses = 64;

@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "mapping/resolution_fit.hpp"
 #include "geometry/segment.hpp"
+#include "mapping/resolution_fit.hpp"
 
 namespace credo::mapping {
 namespace {
@@ -19,7 +19,8 @@ namespace {
 using geometry::Pose2;
 
 constexpr int kPathKnots = 16;  // poses along a scan, between which the motion is taken as even
-constexpr double kWallHalfCells = 0.55;  // to either side of a surface: half a cell, and a bit for one on a border of cells
+constexpr double kWallHalfCells =
+    0.55;  // to either side of a surface: half a cell, and a bit for one on a border of cells
 
 int free_class(double reliability) { return level_of(reliability) - 1; }  // -1: none
 int hit_class(double reliability) {
@@ -27,7 +28,9 @@ int hit_class(double reliability) {
   return level > 0 ? kLevels + level - 1 : -1;
 }
 
-Eigen::Vector2d turned(const Eigen::Vector2d& v, double c, double s) { return {c * v.x() - s * v.y(), s * v.x() + c * v.y()}; }
+Eigen::Vector2d turned(const Eigen::Vector2d& v, double c, double s) {
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
 
 void require(bool holds, const std::string& message) {
   if (!holds) throw std::invalid_argument("range finder: " + message);
@@ -137,8 +140,8 @@ void ScanPainter::place(const Pose2& T_map_base, const sensors::MotionPath& path
   }
 }
 
-/// Which neighbours hit one surface. Where it is met at a grazing angle, the occupied part is widened so that every cell
-/// that the surface passes through has its centre in it: about half a cell to either side of the surface.
+/// Which neighbours hit one surface. Where it is met at a grazing angle, the occupied part is widened so that every
+/// cell that the surface passes through has its centre in it: about half a cell to either side of the surface.
 void ScanPainter::join() {
   const double min_sine = std::sin(params_.min_incidence_rad);
   const double resolution = georeference_.resolution_m;
@@ -148,8 +151,8 @@ void ScanPainter::join() {
     double sine_after = 0.0, sine_of_next = 0.0;
     if (i + 1 < beams_.size() && beam.hit_class >= 0 && beams_[i + 1].hit_class >= 0) {
       const Beam& next = beams_[i + 1];
-      const Eigen::Vector2d along = next.range_m * next.direction - beam.range_m * beam.direction +
-                                    (next.origin - beam.origin) * resolution;
+      const Eigen::Vector2d along =
+          next.range_m * next.direction - beam.range_m * beam.direction + (next.origin - beam.origin) * resolution;
       const double length = along.norm();
       const double sine = std::abs(geometry::cross(beam.direction, along));
       if (length > 0.0 && sine >= min_sine * length) {
@@ -174,7 +177,8 @@ void ScanPainter::outline() {
   const double c = std::cos(half_sector_rad_), s = std::sin(half_sector_rad_);
   for (Beam& beam : beams_) {
     const Eigen::Vector2d start = turned(beam.direction, c, -s), end = turned(beam.direction, c, s);
-    const auto ring = [&](double radius_m, Eigen::Vector2d& at_start, Eigen::Vector2d& at_tip, Eigen::Vector2d& at_end) {
+    const auto ring = [&](double radius_m, Eigen::Vector2d& at_start, Eigen::Vector2d& at_tip,
+                          Eigen::Vector2d& at_end) {
       const double radius = radius_m * cells_per_metre;
       at_start = beam.origin + radius * start;
       at_tip = beam.origin + radius * beam.direction;

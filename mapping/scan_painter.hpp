@@ -26,7 +26,7 @@ struct LaserTables {
   double bins_per_metre = 0.0;
   std::vector<float> free_margin_m;  ///< by range
   std::vector<float> half_width_m;   ///< by range
-  std::vector<float> hit_share;     ///< by range
+  std::vector<float> hit_share;      ///< by range
   double no_return_reliability = 0.0;
 };
 
@@ -91,8 +91,8 @@ class ScanPainter {
   LaserTables tables_;
   ScanParams params_;
   double half_sector_rad_ = 0.0;
-  bool touching_ = false;                           ///< sectors reach half-way to their neighbours
-  std::vector<Eigen::Vector2d> directions_;         ///< of the beams, in the sensor frame
+  bool touching_ = false;                    ///< sectors reach half-way to their neighbours
+  std::vector<Eigen::Vector2d> directions_;  ///< of the beams, in the sensor frame
   std::array<evidence::FixedLogCommonality, RegionFiller::kClasses> increments_;
   std::vector<Beam> beams_;
   RegionFiller filler_;

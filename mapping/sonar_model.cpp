@@ -57,14 +57,16 @@ GridMass sonar_li2007(double rho_m, double theta_rad, double reading_m, double e
                .occupied = 0.0,
                .conflict = 0.0,
                .unknown = 0.0};
-  if (rho_m <= reading_m + 2.0 * epsilon_m) raw.occupied = std::exp(-3.0 * rho_v_per_m2 * past * past) * lambda;  // eq. (6)
+  if (rho_m <= reading_m + 2.0 * epsilon_m)
+    raw.occupied = std::exp(-3.0 * rho_v_per_m2 * past * past) * lambda;  // eq. (6)
   if (rho_m <= reading_m + epsilon_m) {
-    // Eq. (7), negative for rho < R/2 - 2 eps in print: clamped. Resolved: lambda here too, or the edge of the cone near R
-    // would be pure conflict.
+    // Eq. (7), negative for rho < R/2 - 2 eps in print: clamped. Resolved: lambda here too, or the edge of the cone
+    // near R would be pure conflict.
     const double share = 2.0 * (rho_m - (reading_m - 2.0 * epsilon_m)) / reading_m;
     raw.conflict = std::max(0.0, 1.0 - share * share) * (variant == Variant::kResolved ? lambda : 1.0);
   }
-  if (past >= 0.0 && rho_m <= reading_m + 2.0 * epsilon_m) raw.unknown = std::tanh(2.0 * past) * (1.0 - lambda);  // eq. (8)
+  if (past >= 0.0 && rho_m <= reading_m + 2.0 * epsilon_m)
+    raw.unknown = std::tanh(2.0 * past) * (1.0 - lambda);  // eq. (8)
   return variant == Variant::kResolved ? completed(raw) : divided(raw);
 }
 
@@ -80,8 +82,8 @@ Li2007::Li2007(const sensors::SonarRing& ring, const Li2007Params& params)
   require(params.no_echo_reliability >= 0.0 && params.no_echo_reliability < 1.0,
           "no_echo_reliability must be in [0, 1)", params.no_echo_reliability);
   require(params.no_echo_range_m >= 0.0, "no_echo_range_m must not be negative", params.no_echo_range_m);
-  require(ring.beam_width_rad > 0.0 && ring.beam_width_rad < std::numbers::pi, "beam_width must be between 0 and pi rad",
-          ring.beam_width_rad);
+  require(ring.beam_width_rad > 0.0 && ring.beam_width_rad < std::numbers::pi,
+          "beam_width must be between 0 and pi rad", ring.beam_width_rad);
   require(ring.range_min_m >= 0.0, "range_min must not be negative", ring.range_min_m);
   require(ring.range_max_m > ring.range_min_m && std::isfinite(ring.range_max_m), "range_max must be above range_min",
           ring.range_max_m);

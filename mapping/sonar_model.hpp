@@ -10,8 +10,8 @@
 
 namespace credo::mapping {
 
-/// What one reading of a transducer says about a cell at distance `rho` and angle `theta` from the beam axis, and how far
-/// such a reading is to be trusted. Lengths from the transducer; masses before discounting.
+/// What one reading of a transducer says about a cell at distance `rho` and angle `theta` from the beam axis, and how
+/// far such a reading is to be trusted. Lengths from the transducer; masses before discounting.
 template <typename Model>
 concept SonarModel = requires(const Model& model, double rho_m, double theta_rad, double reading_m) {
   { model.mass(rho_m, theta_rad, reading_m) } -> std::same_as<evidence::GridMass>;  // an echo at reading_m
@@ -21,14 +21,14 @@ concept SonarModel = requires(const Model& model, double rho_m, double theta_rad
   { model.reach(reading_m) } -> std::convertible_to<double>;  // vacuous beyond; no echo: of an infinite reading
 };
 
-/// The formulas as printed, brought to sum 1 by division; or as resolved (docs/equations.md): lambda on the conflict too,
-/// and the mass that is missing to 1 goes to ignorance.
+/// The formulas as printed, brought to sum 1 by division; or as resolved (docs/equations.md): lambda on the conflict
+/// too, and the mass that is missing to 1 goes to ignorance.
 enum class Variant { kResolved, kPrinted };
 
 struct Li2007Params {
-  double epsilon_m = 0.05;    ///< range error
-  double rho_v_per_m2 = 100;  ///< narrowness of the occupied lobe; 1 in print, which makes walls 0.5 m thick
-  double reliability = 0.8;   ///< discounts every reading, in [0, 1); below 1 no reading is dogmatic
+  double epsilon_m = 0.05;            ///< range error
+  double rho_v_per_m2 = 100;          ///< narrowness of the occupied lobe; 1 in print, which makes walls 0.5 m thick
+  double reliability = 0.8;           ///< discounts every reading, in [0, 1); below 1 no reading is dogmatic
   double no_echo_reliability = 0.05;  ///< of "empty" where nothing came back; specular misses make it weak
   double no_echo_range_m = 2.0;       ///< and up to here only, or the ring's range_max where that is nearer
   Variant variant = Variant::kResolved;
@@ -60,8 +60,8 @@ static_assert(SonarModel<Li2007>);
 /// The beam shape lambda: 1 on the axis, 0 at the edge of the cone (Li X. 2007, eq. (9)).
 [[nodiscard]] double beam_weight(double theta_rad, double beam_width_rad);
 
-/// Li X. 2007, eqs. (5)-(8), brought to sum 1 by `variant`; no discounting. rho_m below `range_min_m` or theta outside the
-/// cone: vacuous.
+/// Li X. 2007, eqs. (5)-(8), brought to sum 1 by `variant`; no discounting. rho_m below `range_min_m` or theta outside
+/// the cone: vacuous.
 [[nodiscard]] evidence::GridMass sonar_li2007(double rho_m, double theta_rad, double reading_m, double epsilon_m,
                                               double beam_width_rad, double range_min_m, double rho_v_per_m2,
                                               Variant variant);

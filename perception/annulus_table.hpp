@@ -20,8 +20,8 @@ struct AnnulusRow {
   std::size_t first = 0;  ///< index of its first sample among all samples of the table
 };
 
-/// Where in the image the circles of an annulus lie: for every sample the offset of a pixel and the weights of the 2 x 2
-/// pixels from there. Made once for a camera and a centre; reading a circle is a gather, no angle is computed.
+/// Where in the image the circles of an annulus lie: for every sample the offset of a pixel and the weights of the 2 x
+/// 2 pixels from there. Made once for a camera and a centre; reading a circle is a gather, no angle is computed.
 class AnnulusTable {
  public:
   static constexpr int kScale = 4;  ///< samples are grey levels times this

@@ -42,7 +42,8 @@ std::uint32_t get(std::string_view bytes, std::size_t at, int count) {
 class Directory {
  public:
   /// \param place  of the directory in the file
-  explicit Directory(std::size_t place, int fields) : extra_place_(place + 2 + 12 * static_cast<std::size_t>(fields) + 4) {
+  explicit Directory(std::size_t place, int fields)
+      : extra_place_(place + 2 + 12 * static_cast<std::size_t>(fields) + 4) {
     put(fields_, static_cast<std::uint32_t>(fields), 2);
   }
   void number(std::uint16_t tag, std::uint16_t type, std::uint32_t value) {
@@ -161,17 +162,21 @@ void write_belief_tiff(const BeliefImage& image, const std::filesystem::path& fi
 BeliefImage read_belief_tiff(const std::filesystem::path& file) {
   const std::string bytes = datasets::read_binary_file(file);
   std::map<std::uint16_t, std::uint32_t> fields = read_fields(bytes, file.string());
-  const bool ours = fields[kBitsPerSample] == 32 && fields[kCompression] == 1 && fields[kSamplesPerPixel] == kChannels &&
-                    fields[kPlanarConfiguration] == 1 && fields[kSampleFormat] == 3 &&
-                    fields[kRowsPerStrip] >= fields[kHeight] && fields[kWidth] > 0 && fields[kHeight] > 0;
+  const bool ours = fields[kBitsPerSample] == 32 && fields[kCompression] == 1 &&
+                    fields[kSamplesPerPixel] == kChannels && fields[kPlanarConfiguration] == 1 &&
+                    fields[kSampleFormat] == 3 && fields[kRowsPerStrip] >= fields[kHeight] && fields[kWidth] > 0 &&
+                    fields[kHeight] > 0;
   if (!ours)
-    throw std::runtime_error(file.string() + ": is a TIFF file of another kind; expected four interleaved 32-bit floats " +
+    throw std::runtime_error(file.string() +
+                             ": is a TIFF file of another kind; expected four interleaved 32-bit floats " +
                              "per pixel, one strip, not compressed");
   const std::uint64_t count = std::uint64_t{fields[kWidth]} * fields[kHeight];
   const std::uint64_t begin = fields[kStripOffsets];
   if (begin > bytes.size() || count > (bytes.size() - begin) / kPixelBytes)
-    throw std::runtime_error(file.string() + ": is cut short: holds less than its " + std::to_string(count) + " pixels");
-  BeliefImage image{.width = static_cast<int>(fields[kWidth]), .height = static_cast<int>(fields[kHeight]), .pixels = {}};
+    throw std::runtime_error(file.string() + ": is cut short: holds less than its " + std::to_string(count) +
+                             " pixels");
+  BeliefImage image{
+      .width = static_cast<int>(fields[kWidth]), .height = static_cast<int>(fields[kHeight]), .pixels = {}};
   image.pixels.resize(count);
   std::size_t at = begin;
   for (std::array<float, kChannels>& pixel : image.pixels)

@@ -26,13 +26,13 @@ struct BeliefImage {
   friend bool operator==(const BeliefImage&, const BeliefImage&) = default;
 };
 
-/// The grid's bounding box as a picture: the same rectangle as the map_server picture of the same grid. A vacuous grid gives
-/// one vacuous pixel.
+/// The grid's bounding box as a picture: the same rectangle as the map_server picture of the same grid. A vacuous grid
+/// gives one vacuous pixel.
 [[nodiscard]] BeliefImage belief_image(const grids::EvidentialGrid& grid,
                                        BeliefChannels channels = BeliefChannels::kNormalized);
 
-/// Writes a baseline TIFF: little endian, one strip, uncompressed, four interleaved 32-bit IEEE floats per pixel. Written
-/// beside its place first, then renamed.
+/// Writes a baseline TIFF: little endian, one strip, uncompressed, four interleaved 32-bit IEEE floats per pixel.
+/// Written beside its place first, then renamed.
 /// \throws std::runtime_error if it cannot be written; the message names the file.
 void write_belief_tiff(const BeliefImage& image, const std::filesystem::path& file);
 

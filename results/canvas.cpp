@@ -12,8 +12,8 @@
 namespace credo::results {
 namespace {
 
-constexpr int kScale = 3;       // how many times as large everything is drawn
-constexpr int kShift = 4;       // fractional bits of OpenCV's drawing functions
+constexpr int kScale = 3;  // how many times as large everything is drawn
+constexpr int kShift = 4;  // fractional bits of OpenCV's drawing functions
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr double kFontUnits = 21.0;  // height of a capital letter at font scale 1
 
@@ -61,7 +61,10 @@ Color color_of(const evidence::BinaryMass& mass) {
 }
 
 Canvas::Canvas(int width, int height, Color background)
-    : width_(width), height_(height), whole_(height * kScale, width * kScale, CV_8UC3, scalar(background)), view_(whole_) {}
+    : width_(width),
+      height_(height),
+      whole_(height * kScale, width * kScale, CV_8UC3, scalar(background)),
+      view_(whole_) {}
 
 void Canvas::clip(Point corner, Point opposite) {
   const auto bounded = [](double value, int limit) {
@@ -88,7 +91,8 @@ void Canvas::dashed(Point a, Point b, Color color, double thickness, double dash
   constexpr double kMostDashes = 1000.0;  // of a line that leads far out of the picture they are longer
   dash = std::max(dash, 0.5 * length / kMostDashes);
   const Point step = (b - a) / length;
-  for (double s = 0.0; s < length; s += 2.0 * dash) line(a + s * step, a + std::min(length, s + dash) * step, color, thickness);
+  for (double s = 0.0; s < length; s += 2.0 * dash)
+    line(a + s * step, a + std::min(length, s + dash) * step, color, thickness);
 }
 
 void Canvas::polyline(std::span<const Point> points, Color color, double thickness) {
@@ -120,13 +124,13 @@ void Canvas::frame(Point corner, Point opposite, Color color, double thickness) 
 }
 
 void Canvas::disc(Point centre, double radius, Color fill) {
-  cv::circle(view_, fixed(centre - offset_), static_cast<int>(std::lround(radius * kScale * (1 << kShift))), scalar(fill),
-             cv::FILLED, cv::LINE_AA, kShift);
+  cv::circle(view_, fixed(centre - offset_), static_cast<int>(std::lround(radius * kScale * (1 << kShift))),
+             scalar(fill), cv::FILLED, cv::LINE_AA, kShift);
 }
 
 void Canvas::circle(Point centre, double radius, Color color, double thickness) {
-  cv::circle(view_, fixed(centre - offset_), static_cast<int>(std::lround(radius * kScale * (1 << kShift))), scalar(color),
-             pixels(thickness), cv::LINE_AA, kShift);
+  cv::circle(view_, fixed(centre - offset_), static_cast<int>(std::lround(radius * kScale * (1 << kShift))),
+             scalar(color), pixels(thickness), cv::LINE_AA, kShift);
 }
 
 void Canvas::arc(Point centre, double radius, double from, double to, Color color, double thickness) {
@@ -151,9 +155,10 @@ void Canvas::text(Point baseline, std::string_view text, Color color, double hei
   if (anchor == Anchor::kCentre) start.x() -= 0.5 * width;
   if (anchor == Anchor::kRight) start.x() -= width;
   const int thickness = std::max(1, static_cast<int>(std::lround(0.115 * height * kScale * weight)));
-  cv::putText(view_, std::string(text),
-              cv::Point(static_cast<int>(std::lround(start.x() * kScale)), static_cast<int>(std::lround(start.y() * kScale))),
-              kFont, kScale * height / kFontUnits, scalar(color), thickness, cv::LINE_AA);
+  cv::putText(
+      view_, std::string(text),
+      cv::Point(static_cast<int>(std::lround(start.x() * kScale)), static_cast<int>(std::lround(start.y() * kScale))),
+      kFont, kScale * height / kFontUnits, scalar(color), thickness, cv::LINE_AA);
 }
 
 void Canvas::text_upwards(Point centre, std::string_view text, Color color, double height) {
@@ -165,8 +170,8 @@ void Canvas::text_upwards(Point centre, std::string_view text, Color color, doub
   cv::Mat turned;
   cv::rotate(view_(target), turned, cv::ROTATE_90_CLOCKWISE);
   const int thickness = std::max(1, static_cast<int>(std::lround(0.115 * height * kScale)));
-  cv::putText(turned, std::string(text), cv::Point(pixels(margin), pixels(2.0 * height)), kFont, kScale * height / kFontUnits,
-              scalar(color), thickness, cv::LINE_AA);
+  cv::putText(turned, std::string(text), cv::Point(pixels(margin), pixels(2.0 * height)), kFont,
+              kScale * height / kFontUnits, scalar(color), thickness, cv::LINE_AA);
   cv::Mat back;
   cv::rotate(turned, back, cv::ROTATE_90_COUNTERCLOCKWISE);
   back.copyTo(view_(target));
@@ -175,8 +180,10 @@ void Canvas::text_upwards(Point centre, std::string_view text, Color color, doub
 void Canvas::image(const cv::Mat& source, Point corner, Point opposite, bool keep_pixels) {
   const cv::Size size(pixels(opposite.x() - corner.x()), pixels(opposite.y() - corner.y()));
   cv::Mat color, scaled;
-  if (source.channels() == 1) cv::cvtColor(source, color, cv::COLOR_GRAY2BGR);
-  else color = source;
+  if (source.channels() == 1)
+    cv::cvtColor(source, color, cv::COLOR_GRAY2BGR);
+  else
+    color = source;
   const bool reduces = size.width < color.cols;
   cv::resize(color, scaled, size, 0, 0, reduces ? cv::INTER_AREA : keep_pixels ? cv::INTER_NEAREST : cv::INTER_CUBIC);
   const cv::Point at(static_cast<int>(std::lround((corner.x() - offset_.x()) * kScale)),

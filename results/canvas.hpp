@@ -33,8 +33,8 @@ inline constexpr Color kPurple{160, 72, 140}, kSky{86, 180, 233}, kYellow{236, 1
 
 enum class Anchor { kLeft, kCentre, kRight };
 
-/// A drawing surface in pixels with smooth lines and text: everything is drawn several times as large and reduced at the end.
-/// x right, y down. Text is ASCII.
+/// A drawing surface in pixels with smooth lines and text: everything is drawn several times as large and reduced at
+/// the end. x right, y down. Text is ASCII.
 class Canvas {
  public:
   using Point = Eigen::Vector2d;
@@ -72,8 +72,8 @@ class Canvas {
  private:
   int width_, height_;
   cv::Mat whole_;
-  cv::Mat view_;          // the part of whole_ that is drawn into
-  Point offset_{0, 0};    // of view_ in whole_, in final pixels
+  cv::Mat view_;        // the part of whole_ that is drawn into
+  Point offset_{0, 0};  // of view_ in whole_, in final pixels
 };
 
 [[nodiscard]] double text_width(std::string_view text, double height = 9.0);

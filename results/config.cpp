@@ -39,14 +39,22 @@ std::string number(double value) {
 }
 
 template <typename T>
-constexpr bool is_matrix = requires(const T& value) { value.rows(); value.cols(); value(0, 0); };
+constexpr bool is_matrix = requires(const T& value) {
+  value.rows();
+  value.cols();
+  value(0, 0);
+};
 
 template <typename T>
 std::string scalar(const T& value) {
-  if constexpr (std::is_same_v<T, bool>) return value ? "true" : "false";
-  else if constexpr (std::is_enum_v<T>) return snake(name_of(value, std::make_index_sequence<10>{}));
-  else if constexpr (std::is_floating_point_v<T>) return number(value);
-  else return fmt::format("{}", value);
+  if constexpr (std::is_same_v<T, bool>)
+    return value ? "true" : "false";
+  else if constexpr (std::is_enum_v<T>)
+    return snake(name_of(value, std::make_index_sequence<10>{}));
+  else if constexpr (std::is_floating_point_v<T>)
+    return number(value);
+  else
+    return fmt::format("{}", value);
 }
 
 /// In one line: a number, or a list or a map of what fits on one line.
@@ -56,7 +64,8 @@ std::string flow(const T& value) {
     return scalar(value);
   } else if constexpr (is_matrix<T>) {
     std::string text = "[";
-    for (int i = 0; i < value.size(); ++i) text += (i > 0 ? ", " : "") + number(value(i / value.cols(), i % value.cols()));
+    for (int i = 0; i < value.size(); ++i)
+      text += (i > 0 ? ", " : "") + number(value(i / value.cols(), i % value.cols()));
     return text + "]";
   } else if constexpr (std::ranges::range<T>) {
     std::string text = "[";
@@ -79,7 +88,8 @@ constexpr bool fits_one_line() {
 /// An aggregate of a few plain values (a mass, the breakpoints of a belief) is one line; others are indented blocks.
 template <typename T>
 bool is_small(const T& value) {
-  if constexpr (fits_one_line<T>()) return true;
+  if constexpr (fits_one_line<T>())
+    return true;
   else {
     bool plain = fields::count<T>() <= 6;
     fields::for_each(value, [&](std::string_view, const auto& field) {
@@ -98,7 +108,8 @@ void emit(std::string& out, std::string_view name, const T& value, std::size_t d
     out += fmt::format("{}{}: {}\n", indent, name, flow(value));
   } else {
     out += fmt::format("{}{}:\n", indent, name);
-    fields::for_each(value, [&](std::string_view field_name, const auto& field) { emit(out, field_name, field, depth + 1); });
+    fields::for_each(value,
+                     [&](std::string_view field_name, const auto& field) { emit(out, field_name, field, depth + 1); });
   }
 }
 
@@ -124,8 +135,10 @@ std::string to_yaml(const RunConfig& config) {
   out += paper ? "Dempster's rule" : "conflict to ignorance";
   out +=
       " from the number of matched primitives, the\n"
-      "  share of the detected ones that were matched, and the existence of the matched tracks (Clerentin et al., sec. 4.5).\n"
-      "  It is a degree of belief, not a calibrated probability of a bounded error: no integrity monitor has looked, and the\n"
+      "  share of the detected ones that were matched, and the existence of the matched tracks (Clerentin et al., sec. "
+      "4.5).\n"
+      "  It is a degree of belief, not a calibrated probability of a bounded error: no integrity monitor has looked, "
+      "and the\n"
       "  protection levels (pl_ columns of localization.csv) are nan.\n";
   emit(out, "observer", config.observer, 0);
   emit(out, "localizer", config.localizer, 0);
@@ -133,8 +146,8 @@ std::string to_yaml(const RunConfig& config) {
   return out;
 }
 
-std::string to_yaml(const mapping::TrajectoryMappingParams& params, const std::string& version, const std::string& source,
-                    const std::string& poses) {
+std::string to_yaml(const mapping::TrajectoryMappingParams& params, const std::string& version,
+                    const std::string& source, const std::string& poses) {
   std::string out = "# Every parameter of this map, as used.\nformat: credo-results/1\n";
   out += "credo: " + version + "\nsource: " + yaml_quoted(source) + "\nmap_poses: " + yaml_quoted(poses) + "\n";
   emit(out, "mapping", params, 0);

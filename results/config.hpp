@@ -15,7 +15,7 @@ namespace credo::results {
 /// What a run was made with.
 struct RunConfig {
   std::string version;
-  std::string dataset;  ///< its name
+  std::string dataset;                     ///< its name
   std::string map_poses = "localization";  ///< where the mapper's poses came from
   perception::ObserverParams observer = {};
   localization::LocalizerParams localizer = {};

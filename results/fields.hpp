@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <utility>
 
-// The fields of plain aggregates, by name: so that the saved configuration is complete by construction, and a parameter that
-// somebody adds tomorrow is in it without anybody's doing.
+// The fields of plain aggregates, by name: so that the saved configuration is complete by construction, and a parameter
+// that somebody adds tomorrow is in it without anybody's doing.
 namespace credo::results::fields {
 
 /// Converts to whatever a field wants.
@@ -27,8 +27,10 @@ consteval bool takes(std::index_sequence<I...>) {
 /// How many fields an aggregate has: the most values that it can be initialised with.
 template <typename T, std::size_t N = 40>
 consteval std::size_t count() {
-  if constexpr (takes<T>(std::make_index_sequence<N>{})) return N;
-  else return count<T, N - 1>();
+  if constexpr (takes<T>(std::make_index_sequence<N>{}))
+    return N;
+  else
+    return count<T, N - 1>();
 }
 
 /// References to all fields.
@@ -96,7 +98,8 @@ consteval auto spelled() {
 template <typename T, std::size_t I>
 consteval std::string_view name() {
   constexpr auto* address = &std::get<I>(tie(kNowhere<T>.value));
-  constexpr std::string_view text = spelled<address>();  // "... [with auto Value = (& kNowhere<T>.Holder<T>::value.T::the_name)]"
+  constexpr std::string_view text =
+      spelled<address>();  // "... [with auto Value = (& kNowhere<T>.Holder<T>::value.T::the_name)]"
   constexpr std::size_t start = text.rfind("::") + 2;
   return text.substr(start, text.find_first_of(")]", start) - start);
 }
@@ -114,9 +117,8 @@ consteval std::string_view enumerator() {
 template <typename T, typename Visitor>
 void for_each(const T& value, const Visitor& visit) {
   const auto all = tie(value);
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (visit(name<T, I>(), std::get<I>(all)), ...);
-  }(std::make_index_sequence<count<T>()>{});
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (visit(name<T, I>(), std::get<I>(all)), ...); }
+  (std::make_index_sequence<count<T>()>{});
 }
 
 }  // namespace credo::results::fields

@@ -41,11 +41,14 @@ void GroundView::grid(Canvas& canvas, Color color) const {
 void GroundView::scale_bar(Canvas& canvas) const {
   const std::vector<double> xs = ticks(low().x(), high().x(), 6);
   const double step = xs.size() > 1 ? xs[1] - xs[0] : 1.0;
-  const std::string label = step >= 1.0 ? tick_label(step, step) + " m" : tick_label(100.0 * step, 100.0 * step) + " cm";
+  const std::string label =
+      step >= 1.0 ? tick_label(step, step) + " m" : tick_label(100.0 * step, 100.0 * step) + " cm";
   const double room = std::max(pixels(step), text_width(label, 8.5));
-  const Point end{opposite_.x() - 12.0 - 0.5 * (room - pixels(step)), opposite_.y() - 10.0}, start{end.x() - pixels(step), end.y()};
+  const Point end{opposite_.x() - 12.0 - 0.5 * (room - pixels(step)), opposite_.y() - 10.0},
+      start{end.x() - pixels(step), end.y()};
   const double middle = 0.5 * (start.x() + end.x());
-  canvas.box({middle - 0.5 * room - 6.0, end.y() - 22.0}, {middle + 0.5 * room + 6.0, end.y() + 7.0}, colors::kPaper, 0.85);
+  canvas.box({middle - 0.5 * room - 6.0, end.y() - 22.0}, {middle + 0.5 * room + 6.0, end.y() + 7.0}, colors::kPaper,
+             0.85);
   canvas.line(start, end, colors::kInk, 1.6);
   canvas.line({start.x(), end.y() - 4.0}, {start.x(), end.y() + 4.0}, colors::kInk, 1.6);
   canvas.line({end.x(), end.y() - 4.0}, {end.x(), end.y() + 4.0}, colors::kInk, 1.6);
@@ -86,8 +89,11 @@ void draw_mark(Canvas& canvas, Point at, perception::PrimitiveType type, double 
       break;
     }
     case perception::PrimitiveType::kEdge: {
-      const std::vector<Point> diamond{{at.x(), at.y() - 1.2 * s}, {at.x() + 1.2 * s, at.y()}, {at.x(), at.y() + 1.2 * s},
-                                       {at.x() - 1.2 * s, at.y()}, {at.x(), at.y() - 1.2 * s}};
+      const std::vector<Point> diamond{{at.x(), at.y() - 1.2 * s},
+                                       {at.x() + 1.2 * s, at.y()},
+                                       {at.x(), at.y() + 1.2 * s},
+                                       {at.x() - 1.2 * s, at.y()},
+                                       {at.x(), at.y() - 1.2 * s}};
       canvas.polygon(diamond, inside);
       canvas.polyline(diamond, filled ? colors::kInk : color, 1.0);
       break;

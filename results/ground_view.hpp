@@ -18,7 +18,7 @@ class GroundView {
     return {centre_.x() + (ground.x() - middle_.x()) * scale_, centre_.y() - (ground.y() - middle_.y()) * scale_};
   }
   [[nodiscard]] double pixels(double metres) const { return metres * scale_; }
-  [[nodiscard]] Eigen::Vector2d low() const;   ///< of the box [m]
+  [[nodiscard]] Eigen::Vector2d low() const;  ///< of the box [m]
   [[nodiscard]] Eigen::Vector2d high() const;
 
   /// Lines every 1, 2 or 5 m (times a power of ten), and a bar that says how long one is.

@@ -27,7 +27,7 @@ struct TrackSample {
 struct Moment {
   localization::Localization localization;
   std::vector<TrackSample> tracks;
-  double mean_conflict = 0.0;         ///< of the five criteria, over the segments of the scene
+  double mean_conflict = 0.0;  ///< of the five criteria, over the segments of the scene
   std::optional<geometry::Pose2> truth;
 };
 

@@ -63,18 +63,21 @@ std::pair<double, double> limits(const ErrorSeries& s) {
   }
   std::vector<double> bands = s.high;
   std::sort(bands.begin(), bands.end());
-  const double usual = bands.empty() ? 0.0 : bands[static_cast<std::size_t>(0.9 * static_cast<double>(bands.size() - 1))];
+  const double usual =
+      bands.empty() ? 0.0 : bands[static_cast<std::size_t>(0.9 * static_cast<double>(bands.size() - 1))];
   const double reach = 1.15 * std::max(largest, usual);
   return {-reach, reach};
 }
 
 void status_legend(Canvas& canvas, double y) {
   canvas.text({66.0, y}, "status:", colors::kInk, 8.5);
-  legend(canvas, {118.0, y}, std::vector<LegendEntry>{{color_of(Status::kLocalized), "localized"},
-                                                      {color_of(Status::kUncertain), "uncertain"},
-                                                      {color_of(Status::kAmbiguous), "ambiguous"},
-                                                      {color_of(Status::kLost), "lost"},
-                                                      {color_of(Status::kInitializing), "initializing"}}, 8.5);
+  legend(canvas, {118.0, y},
+         std::vector<LegendEntry>{{color_of(Status::kLocalized), "localized"},
+                                  {color_of(Status::kUncertain), "uncertain"},
+                                  {color_of(Status::kAmbiguous), "ambiguous"},
+                                  {color_of(Status::kLost), "lost"},
+                                  {color_of(Status::kInitializing), "initializing"}},
+         8.5);
 }
 
 /// Rows of the track chart: the longest-lived ones, in the order in which they appear.
@@ -97,7 +100,8 @@ void draw_tracks(Canvas& canvas, std::span<const Moment> history, Point corner, 
   const std::vector<int> ids = rows_of(history, 60);
   const std::vector<double> t = times(history);
   const double left = corner.x() + 66.0, right = opposite.x() - 16.0, top = corner.y() + 30.0;
-  const double row = std::min(14.0, (opposite.y() - top - 8.0) / static_cast<double>(std::max<std::size_t>(1, ids.size())));
+  const double row =
+      std::min(14.0, (opposite.y() - top - 8.0) / static_cast<double>(std::max<std::size_t>(1, ids.size())));
   const double last_step = t.size() > 1 ? t.back() - t[t.size() - 2] : 1.0;
   const double duration = std::max(1e-9, t.back() + last_step);
   const auto x_of = [&](double time) { return left + time / duration * (right - left); };
@@ -109,13 +113,15 @@ void draw_tracks(Canvas& canvas, std::span<const Moment> history, Point corner, 
       if (found == ids.end() || *found != sample.id) continue;
       const double y = top + row * static_cast<double>(found - ids.begin());
       const bool seen = sample.state == tracking::TrackState::kTracked;
-      canvas.box({from, y + (seen ? 1.0 : 0.36 * row)}, {to, y + row - (seen ? 1.0 : 0.36 * row)}, color_of(sample.existence));
+      canvas.box({from, y + (seen ? 1.0 : 0.36 * row)}, {to, y + row - (seen ? 1.0 : 0.36 * row)},
+                 color_of(sample.existence));
       const bool first = i == 0 || std::none_of(history[i - 1].tracks.begin(), history[i - 1].tracks.end(),
                                                 [&](const TrackSample& other) { return other.id == sample.id; });
       if (first) canvas.box({from - 4.0, y + 1.0}, {from, y + row - 1.0}, color_of(sample.type));
     }
   }
-  canvas.frame({left - 5.0, top - 2.0}, {right, top + row * static_cast<double>(ids.size()) + 2.0}, colors::kMuted, 0.8);
+  canvas.frame({left - 5.0, top - 2.0}, {right, top + row * static_cast<double>(ids.size()) + 2.0}, colors::kMuted,
+               0.8);
 }
 
 }  // namespace
@@ -130,8 +136,11 @@ cv::Mat error_picture(std::span<const Moment> history) {
     const ErrorSeries& s = series[static_cast<std::size_t>(i)];
     const auto [low, high] = limits(s);
     Plot plot(titles[static_cast<std::size_t>(i)], i == 2 ? "time [s]" : "", i == 2 ? "[deg]" : "[cm]");
-    plot.band(t, s.low, s.high, colors::kSky, "+-3 sigma", 0.4).level(0.0, colors::kMuted)
-        .line(t, s.error, colors::kBlue, "error").points(t, s.error, colors::kBlue).y_limits(low, high)
+    plot.band(t, s.low, s.high, colors::kSky, "+-3 sigma", 0.4)
+        .level(0.0, colors::kMuted)
+        .line(t, s.error, colors::kBlue, "error")
+        .points(t, s.error, colors::kBlue)
+        .y_limits(low, high)
         .strip(t, statuses(history));
     plot.draw(canvas, {0.0, static_cast<double>(i * kChart)}, {kWidth, (i + 1) * kChart + (i == 2 ? 22.0 : 0.0)});
   }
@@ -155,22 +164,28 @@ cv::Mat belief_picture(std::span<const Moment> history) {
   }
   const Color yes_color = color_of(evidence::BinaryMass{1, 0, 0}), no_color = color_of(evidence::BinaryMass{0, 1, 0});
   Plot plot("Belief in the localization", "time [s]", "mass");
-  plot.band(t, zero, yes, yes_color, "YES", 0.85).band(t, yes, plausible, color_of(evidence::BinaryMass{0, 0, 1}), "unknown", 0.7)
-      .band(t, plausible, one, no_color, "NO", 0.85).line(t, conflict, colors::kInk, "conflict met", 1.6)
-      .y_limits(0.0, 1.0).strip(t, statuses(history));
+  plot.band(t, zero, yes, yes_color, "YES", 0.85)
+      .band(t, yes, plausible, color_of(evidence::BinaryMass{0, 0, 1}), "unknown", 0.7)
+      .band(t, plausible, one, no_color, "NO", 0.85)
+      .line(t, conflict, colors::kInk, "conflict met", 1.6)
+      .y_limits(0.0, 1.0)
+      .strip(t, statuses(history));
   plot.draw(canvas, {0.0, 0.0}, {kWidth, kChart});
   draw_tracks(canvas, history, {0.0, kChart + 4.0}, {kWidth, kChart + track_height});
   const double y = kChart + track_height + 22.0;
   canvas.text({66.0, y}, "tracks: belief", colors::kInk, 8.5);
-  const double x = legend(canvas, {166.0, y}, std::vector<LegendEntry>{{yes_color, "YES"},
-                                                     {color_of(evidence::BinaryMass{0, 0, 1}), "unknown"},
-                                                     {no_color, "NO"}}, 8.5);
+  const double x =
+      legend(canvas, {166.0, y},
+             std::vector<LegendEntry>{
+                 {yes_color, "YES"}, {color_of(evidence::BinaryMass{0, 0, 1}), "unknown"}, {no_color, "NO"}},
+             8.5);
   canvas.text({x, y}, "thin: not seen; starts as", colors::kInk, 8.5);
   legend(canvas, {x + text_width("thin: not seen; starts as", 8.5) + 10.0, y},
          std::vector<LegendEntry>{{color_of(perception::PrimitiveType::kCorner), "corner"},
                                   {color_of(perception::PrimitiveType::kEdge), "edge"},
                                   {color_of(perception::PrimitiveType::kWall), "wall"},
-                                  {color_of(perception::PrimitiveType::kOther), "other"}}, 8.5);
+                                  {color_of(perception::PrimitiveType::kOther), "other"}},
+         8.5);
   status_legend(canvas, y + 24.0);
   return canvas.finish();
 }

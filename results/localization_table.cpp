@@ -77,7 +77,8 @@ class RowReader {
   double within(double low, double high) {
     const double value = real();
     if (!(value >= low && value <= high))
-      fail(fmt::format("expected a number from {} to {} in column {}, found '{}'", low, high, next_, fields_[next_ - 1]));
+      fail(fmt::format("expected a number from {} to {} in column {}, found '{}'", low, high, next_,
+                       fields_[next_ - 1]));
     return value;
   }
   double length() { return within(-1e6, 1e6); }
@@ -94,7 +95,8 @@ class RowReader {
   int count() { return static_cast<int>(within(0.0, 1e9)); }
   sensors::Timestamp time() {
     const auto value = number<sensors::Timestamp>();
-    if (std::abs(value) > sensors::kLatestTime) fail("expected a time in nanoseconds, found '" + fields_[next_ - 1] + "'");
+    if (std::abs(value) > sensors::kLatestTime)
+      fail("expected a time in nanoseconds, found '" + fields_[next_ - 1] + "'");
     return value;
   }
   std::string text() { return fields_[next_++]; }
@@ -107,9 +109,7 @@ class RowReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw datasets::FormatError(file_, line_, what);
-  }
+  [[noreturn]] void fail(const std::string& what) const { throw datasets::FormatError(file_, line_, what); }
 
   const std::filesystem::path& file_;
   int line_;
@@ -176,7 +176,8 @@ std::vector<LocalizationRow> read_localization(const std::filesystem::path& file
     rows.push_back(read_row(RowReader(file, line, text)));
     const std::size_t n = rows.size();
     if (n > 1 && rows[n - 1].localization.time < rows[n - 2].localization.time) {
-      throw datasets::FormatError(file, line, "the time is before that of the row above: expected rows in order of time");
+      throw datasets::FormatError(file, line,
+                                  "the time is before that of the row above: expected rows in order of time");
     }
   }
   return rows;

@@ -28,18 +28,21 @@ grids::EvidentialGrid read_map_folder(const std::filesystem::path& folder) {
   const BeliefImage image = read_belief_tiff(folder / "map_belief.tiff");
   if (image.width != where.width || image.height != where.height) {
     throw std::runtime_error((folder / "map_belief.tiff").string() + ": is " + std::to_string(image.width) + " x " +
-                             std::to_string(image.height) + ", but map.yaml says " + std::to_string(where.width) + " x " +
-                             std::to_string(where.height));
+                             std::to_string(image.height) + ", but map.yaml says " + std::to_string(where.width) +
+                             " x " + std::to_string(where.height));
   }
-  grids::EvidentialGrid grid({.resolution_m = where.resolution_m, .origin_x_m = where.origin_x_m, .origin_y_m = where.origin_y_m});
+  grids::EvidentialGrid grid(
+      {.resolution_m = where.resolution_m, .origin_x_m = where.origin_x_m, .origin_y_m = where.origin_y_m});
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
-      const auto& pixel = image.pixels[static_cast<std::size_t>(image.height - 1 - row) * static_cast<std::size_t>(image.width) +
-                                       static_cast<std::size_t>(column)];
+      const auto& pixel =
+          image.pixels[static_cast<std::size_t>(image.height - 1 - row) * static_cast<std::size_t>(image.width) +
+                       static_cast<std::size_t>(column)];
       const double sum = pixel[0] + pixel[1] + pixel[3], least = std::min({pixel[0], pixel[1], pixel[3]});
       if (!(std::abs(sum - 1.0) < 1e-3 && least >= 0.0)) {
-        throw std::runtime_error((folder / "map_belief.tiff").string() +
-                                 ": empty, occupied and unknown are no shares that sum to 1: was it written with --readout raw?");
+        throw std::runtime_error(
+            (folder / "map_belief.tiff").string() +
+            ": empty, occupied and unknown are no shares that sum to 1: was it written with --readout raw?");
       }
       const evidence::FixedLogCommonality cell = cell_of(pixel);
       if (cell != evidence::FixedLogCommonality{}) grid.add({column, row}, cell);

@@ -15,7 +15,8 @@ namespace {
 
 using grids::CellState;
 using Point = Canvas::Point;
-constexpr Color kUnknownCell{200, 203, 208}, kEmptyCell{255, 255, 255}, kOccupiedCell{28, 30, 36}, kContestedCell{214, 60, 120};
+constexpr Color kUnknownCell{200, 203, 208}, kEmptyCell{255, 255, 255}, kOccupiedCell{28, 30, 36},
+    kContestedCell{214, 60, 120};
 
 Color cell_color(CellState state) {
   switch (state) {
@@ -71,15 +72,19 @@ void draw_layer(Canvas& canvas, const grids::EvidentialGrid& grid, const MapView
   const GroundView view(map.low, map.high, corner + Point(0.0, 22.0), opposite);
   const Point top_left = view.at({map.low.x(), map.high.y()}), bottom_right = view.at({map.high.x(), map.low.y()});
   const std::vector<float> values = grids::layer(grid, map.box, which);
-  canvas.image(colored(values, map.box, [&](float v) { return mixed(colors::kPaper, full, v); }), top_left, bottom_right);
+  canvas.image(colored(values, map.box, [&](float v) { return mixed(colors::kPaper, full, v); }), top_left,
+               bottom_right);
   canvas.frame(top_left, bottom_right, colors::kFaint, 0.8);
 }
 
 /// The four layers, two by two.
-void draw_layers(Canvas& canvas, const grids::EvidentialGrid& grid, const MapView& map, Point corner, double width, double height) {
+void draw_layers(Canvas& canvas, const grids::EvidentialGrid& grid, const MapView& map, Point corner, double width,
+                 double height) {
   const std::array<std::tuple<grids::Layer, const char*, Color>, 4> layers{
-      std::tuple{grids::Layer::kEmpty, "m(empty)", colors::kGreen}, {grids::Layer::kOccupied, "m(occupied)", kOccupiedCell},
-      {grids::Layer::kContested, "contested", kContestedCell}, {grids::Layer::kUnknown, "m(unknown)", colors::kMuted}};
+      std::tuple{grids::Layer::kEmpty, "m(empty)", colors::kGreen},
+      {grids::Layer::kOccupied, "m(occupied)", kOccupiedCell},
+      {grids::Layer::kContested, "contested", kContestedCell},
+      {grids::Layer::kUnknown, "m(unknown)", colors::kMuted}};
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const auto& [which, title, color] = layers[i];
     const Point at = corner + Point(i % 2 == 0 ? 0.0 : width + 18.0, i < 2 ? 0.0 : height + 12.0);
@@ -93,7 +98,8 @@ cv::Mat map_picture(const grids::EvidentialGrid& grid, std::span<const geometry:
   const MapView map(grid);
   const double aspect = (map.high.y() - map.low.y()) / std::max(1e-9, map.high.x() - map.low.x());
   const double width = 720.0, height = std::clamp(width * aspect, 420.0, 900.0);
-  const double layer_height = 0.5 * height + 5.0, layer_width = std::clamp((layer_height - 22.0) / aspect, 250.0, 380.0);
+  const double layer_height = 0.5 * height + 5.0,
+               layer_width = std::clamp((layer_height - 22.0) / aspect, 250.0, 380.0);
   Canvas canvas(static_cast<int>(width + 2.0 * layer_width + 75.0), static_cast<int>(height + 70.0));
   const Point corner{16.0, 34.0}, opposite{16.0 + width, 34.0 + height};
   const GroundView view(map.low, map.high, corner, opposite);
@@ -107,8 +113,12 @@ cv::Mat map_picture(const grids::EvidentialGrid& grid, std::span<const geometry:
   canvas.frame(top_left, bottom_right, colors::kMuted, 0.8);
   view.scale_bar(canvas);
   legend(canvas, {16.0, 34.0 + height + 22.0},
-         std::vector<LegendEntry>{{kOccupiedCell, "occupied"}, {{236, 238, 241}, "empty (white)"}, {kUnknownCell, "unknown"},
-                                  {kContestedCell, "contested"}, {colors::kBlue, "way of the robot"}}, 8.5);
+         std::vector<LegendEntry>{{kOccupiedCell, "occupied"},
+                                  {{236, 238, 241}, "empty (white)"},
+                                  {kUnknownCell, "unknown"},
+                                  {kContestedCell, "contested"},
+                                  {colors::kBlue, "way of the robot"}},
+         8.5);
   draw_layers(canvas, grid, map, {16.0 + width + 22.0, 12.0}, layer_width, layer_height);
   return canvas.finish();
 }

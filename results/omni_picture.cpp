@@ -80,23 +80,26 @@ void draw_range_only(Canvas& canvas, const Placement& place, const perception::S
 }
 
 void draw_foot(Canvas& canvas, const perception::Scene& scene, double y) {
-  const double x = legend(canvas, {14.0, y}, std::vector<LegendEntry>{{color_of(PrimitiveType::kCorner), "corner"},
-                                                                     {color_of(PrimitiveType::kEdge), "edge"},
-                                                                     {color_of(PrimitiveType::kOther), "other"},
-                                                                     {kUnclaimed, "line without primitive"}});
+  const double x = legend(canvas, {14.0, y},
+                          std::vector<LegendEntry>{{color_of(PrimitiveType::kCorner), "corner"},
+                                                   {color_of(PrimitiveType::kEdge), "edge"},
+                                                   {color_of(PrimitiveType::kOther), "other"},
+                                                   {kUnclaimed, "line without primitive"}});
   canvas.text({x + 6.0, y}, "walls around, by belief:", colors::kInk, 8.0);
   legend(canvas, {x + 6.0 + text_width("walls around, by belief:", 8.0) + 12.0, y},
          std::vector<LegendEntry>{{color_of(evidence::BinaryMass{1, 0, 0}), "YES"},
                                   {color_of(evidence::BinaryMass{0, 0, 1}), "unknown"},
                                   {color_of(evidence::BinaryMass{0, 1, 0}), "NO"}});
   char text[96];
-  std::snprintf(text, sizeof text, "%zu radial lines, %zu primitives", scene.radial_lines.size(), scene.primitives.size());
+  std::snprintf(text, sizeof text, "%zu radial lines, %zu primitives", scene.radial_lines.size(),
+                scene.primitives.size());
   canvas.text({14.0, 22.0}, text, colors::kInk, 10.0, Anchor::kLeft, 1.2);
 }
 
 }  // namespace
 
-cv::Mat omni_picture(const sensors::OmniImage& image, const sensors::OmniCamera& camera, const perception::Scene& scene) {
+cv::Mat omni_picture(const sensors::OmniImage& image, const sensors::OmniCamera& camera,
+                     const perception::Scene& scene) {
   constexpr double kHead = 34.0, kFoot = 30.0, kSide = 880.0;
   // The square around the mirror; beyond it there is nothing to see.
   const double rim = std::max(camera.rim_radius_px.value_or(0.0), camera.outer_radius_px), reach = rim + 12.0;

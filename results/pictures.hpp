@@ -19,8 +19,8 @@
 // Pictures of a run, for people. All are CV_8UC3.
 namespace credo::results {
 
-/// The image with the radial lines that were found, in the colours of the primitives that they belong to, and around it the
-/// belief in what was seen in each direction.
+/// The image with the radial lines that were found, in the colours of the primitives that they belong to, and around it
+/// the belief in what was seen in each direction.
 [[nodiscard]] cv::Mat omni_picture(const sensors::OmniImage& image, const sensors::OmniCamera& camera,
                                    const perception::Scene& scene);
 
@@ -29,10 +29,10 @@ namespace credo::results {
 
 /// What a plan picture is drawn from.
 struct PlanView {
-  const geometry::FloorPlan& plan;            ///< without walls: the trail alone
+  const geometry::FloorPlan& plan;                       ///< without walls: the trail alone
   const localization::LandmarkMap* landmarks = nullptr;  ///< to mark those that are matched
-  std::span<const Moment> history;            ///< up to the moment that is shown, the last one; never empty
-  std::span<const tracking::Track> tracks;    ///< of the last moment
+  std::span<const Moment> history;                       ///< up to the moment that is shown, the last one; never empty
+  std::span<const tracking::Track> tracks;               ///< of the last moment
   double robot_radius_m = 0.25;
 };
 

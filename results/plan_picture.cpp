@@ -151,9 +151,12 @@ void draw_panel(Canvas& canvas, const Moment& moment, Point corner) {
 void draw_foot(Canvas& canvas, double y, bool truth) {
   std::vector<LegendEntry> entries{{colors::kBlue, "estimate"}};
   if (truth) entries.push_back({colors::kOrange, "truth"});
-  for (const LegendEntry& e : {LegendEntry{{150, 154, 162}, "plan"}, {colors::kGreen, "matched"},
-                               {colors::kInk, "wall as seen"}, {color_of(PrimitiveType::kCorner), "corner"},
-                               {color_of(PrimitiveType::kEdge), "edge"}, {color_of(PrimitiveType::kOther), "other"}}) {
+  for (const LegendEntry& e : {LegendEntry{{150, 154, 162}, "plan"},
+                               {colors::kGreen, "matched"},
+                               {colors::kInk, "wall as seen"},
+                               {color_of(PrimitiveType::kCorner), "corner"},
+                               {color_of(PrimitiveType::kEdge), "edge"},
+                               {color_of(PrimitiveType::kOther), "other"}}) {
     entries.push_back(e);
   }
   const double x = legend(canvas, {14.0, y}, entries);
@@ -172,7 +175,8 @@ cv::Mat plan_picture(const PlanView& view) {
   const geometry::Pose2& pose = now.localization.estimate.pose;
   canvas.clip({0.0, 0.0}, {map_width, map_height});
   ground.grid(canvas);
-  for (const geometry::Segment& wall : view.plan.walls) canvas.line(ground.at(wall.a), ground.at(wall.b), {150, 154, 162}, 2.4);
+  for (const geometry::Segment& wall : view.plan.walls)
+    canvas.line(ground.at(wall.a), ground.at(wall.b), {150, 154, 162}, 2.4);
   for (const Eigen::Vector2d& mark : view.plan.verticals) canvas.disc(ground.at(mark), 2.0, {150, 154, 162});
   if (view.landmarks != nullptr) {
     for (const tracking::Track& t : view.tracks) {
@@ -184,7 +188,8 @@ cv::Mat plan_picture(const PlanView& view) {
   draw_tracks(canvas, ground, view, pose);
   draw_robot(canvas, ground, pose, view.robot_radius_m, colors::kBlue);
   std::vector<Point> outline;
-  for (const Eigen::Vector2d& p : ellipse(pose.translation(), now.localization.estimate.covariance.topLeftCorner<2, 2>(), 3.0)) {
+  for (const Eigen::Vector2d& p :
+       ellipse(pose.translation(), now.localization.estimate.covariance.topLeftCorner<2, 2>(), 3.0)) {
     outline.push_back(ground.at(p));
   }
   canvas.polyline(outline, colors::kBlue, 1.2);

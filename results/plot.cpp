@@ -24,20 +24,22 @@ std::vector<double> ticks(double low, double high, int wanted) {
     }
   }
   std::vector<double> result;
-  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1.0) result.push_back(k * step + 0.0);
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1.0)
+    result.push_back(k * step + 0.0);
   return result;
 }
 
 std::string tick_label(double value, double step) {
   int decimals = 0;
-  for (double s = step; decimals < 6 && std::abs(s - std::round(s)) > 1e-6 * std::max(1.0, std::abs(s)); s *= 10.0) ++decimals;
+  for (double s = step; decimals < 6 && std::abs(s - std::round(s)) > 1e-6 * std::max(1.0, std::abs(s)); s *= 10.0)
+    ++decimals;
   char text[32];
   std::snprintf(text, sizeof text, "%.*f", decimals, std::abs(value) < 1e-9 * step ? 0.0 : value);
   return text;
 }
 
 struct Plot::Axes {
-  double x0 = 0, x1 = 1, y0 = 0, y1 = 1;          // data
+  double x0 = 0, x1 = 1, y0 = 0, y1 = 1;            // data
   double left = 0, right = 1, top = 0, bottom = 1;  // canvas
   [[nodiscard]] Point at(double x, double y) const {
     return {left + (x - x0) / (x1 - x0) * (right - left), bottom - (y - y0) / (y1 - y0) * (bottom - top)};
@@ -54,9 +56,10 @@ Plot& Plot::points(std::vector<double> x, std::vector<double> y, Color color, st
   return *this;
 }
 
-Plot& Plot::band(std::vector<double> x, std::vector<double> low, std::vector<double> high, Color color, std::string label,
-                 double opacity) {
-  series_.push_back({Kind::kBand, std::move(x), std::move(low), std::move(high), color, std::move(label), 1.0, opacity});
+Plot& Plot::band(std::vector<double> x, std::vector<double> low, std::vector<double> high, Color color,
+                 std::string label, double opacity) {
+  series_.push_back(
+      {Kind::kBand, std::move(x), std::move(low), std::move(high), color, std::move(label), 1.0, opacity});
   return *this;
 }
 
@@ -92,7 +95,8 @@ struct Range {
   [[nodiscard]] std::pair<double, double> widened(double margin) const {
     if (!(low <= high)) return {0.0, 1.0};
     const double reach = high > low ? high - low : std::max(1e-3, std::abs(high));
-    return {low - margin * reach - (high > low ? 0.0 : 0.5 * reach), high + margin * reach + (high > low ? 0.0 : 0.5 * reach)};
+    return {low - margin * reach - (high > low ? 0.0 : 0.5 * reach),
+            high + margin * reach + (high > low ? 0.0 : 0.5 * reach)};
   }
 };
 
@@ -150,11 +154,13 @@ void Plot::draw_series(Canvas& canvas, const Axes& axes, const Series& s) const 
 
 void Plot::draw_strip(Canvas& canvas, const Axes& axes) const {
   constexpr double kHeight = 7.0;
-  if (!strip_x_.empty()) canvas.box({axes.left, axes.bottom - kHeight - 2.0}, {axes.right, axes.bottom}, colors::kPaper);
+  if (!strip_x_.empty())
+    canvas.box({axes.left, axes.bottom - kHeight - 2.0}, {axes.right, axes.bottom}, colors::kPaper);
   for (std::size_t i = 0; i < strip_x_.size(); ++i) {
     const double last_step = i > 0 ? strip_x_[i] - strip_x_[i - 1] : axes.x1 - axes.x0;
     const double end = i + 1 < strip_x_.size() ? strip_x_[i + 1] : strip_x_[i] + last_step;
-    canvas.box({axes.at(strip_x_[i], 0).x(), axes.bottom - kHeight}, {axes.at(end, 0).x(), axes.bottom}, strip_colors_[i]);
+    canvas.box({axes.at(strip_x_[i], 0).x(), axes.bottom - kHeight}, {axes.at(end, 0).x(), axes.bottom},
+               strip_colors_[i]);
   }
 }
 
@@ -163,7 +169,8 @@ void Plot::draw_legend(Canvas& canvas, const Axes& axes) const {
   double width = 0.0;
   for (const Series& s : series_) {
     if (s.label.empty()) continue;
-    entries.push_back({s.kind == Kind::kBand ? mixed(colors::kPaper, s.color, std::max(0.3, s.opacity)) : s.color, s.label});
+    entries.push_back(
+        {s.kind == Kind::kBand ? mixed(colors::kPaper, s.color, std::max(0.3, s.opacity)) : s.color, s.label});
     width += text_width(s.label, 8.0) + 32.0;
   }
   legend(canvas, {axes.right - width + 12.0, axes.top - 9.0}, entries);

@@ -26,8 +26,8 @@ class Plot {
   Plot& line(std::vector<double> x, std::vector<double> y, Color color, std::string label = "", double thickness = 1.6);
   Plot& points(std::vector<double> x, std::vector<double> y, Color color, std::string label = "", double radius = 2.2);
   /// The area between two curves.
-  Plot& band(std::vector<double> x, std::vector<double> low, std::vector<double> high, Color color, std::string label = "",
-             double opacity = 0.25);
+  Plot& band(std::vector<double> x, std::vector<double> low, std::vector<double> high, Color color,
+             std::string label = "", double opacity = 0.25);
   /// A horizontal line across.
   Plot& level(double y, Color color, std::string label = "");
   /// A coloured strip along the foot of the chart from x[i] to x[i + 1] (the last as long as the one before).

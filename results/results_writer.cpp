@@ -44,8 +44,9 @@ void append_primitives(std::string& table, const perception::Scene& scene) {
   for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
     const perception::Primitive& p = scene.primitives[i];
     const bool placed = !p.bearing_only;
-    fmt::format_to(std::back_inserter(table), "{},{},{},{:.9f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.9f},{:.6f},{}\n",
-                   scene.time, i, perception::to_string(p.type), p.azimuth, placed ? p.range_m : kNone,
+    fmt::format_to(std::back_inserter(table),
+                   "{},{},{},{:.9f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.9f},{:.6f},{}\n", scene.time, i,
+                   perception::to_string(p.type), p.azimuth, placed ? p.range_m : kNone,
                    placed ? p.position.x() : kNone, placed ? p.position.y() : kNone, p.existence.yes, p.existence.no,
                    p.existence.unknown, p.sigma_azimuth, p.conflict, p.endpoint_case);
   }
@@ -69,7 +70,8 @@ struct ResultsWriter::State {
   std::string hypotheses;
   std::string tracks = "#timestamp [ns],track,type,azimuth [rad],yes,no,unknown,state,landmark,sigma_azimuth [rad]\n";
   std::string primitives =
-      "#timestamp [ns],index,type,azimuth [rad],range [m],x [m],y [m],yes,no,unknown,sigma_azimuth [rad],conflict,case\n";
+      "#timestamp [ns],index,type,azimuth [rad],range [m],x [m],y [m],yes,no,unknown,sigma_azimuth "
+      "[rad],conflict,case\n";
   std::string radial_lines = "#timestamp [ns],azimuth [rad],sigma [rad],contrast,polarity\n";
 };
 

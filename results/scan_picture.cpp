@@ -61,7 +61,8 @@ void label_rings(Canvas& canvas, const GroundView& view, double reach) {
 
 void draw_bearings(Canvas& canvas, const GroundView& view, const perception::Scene& scene, double reach) {
   for (const perception::RadialLine& line : scene.radial_lines) {
-    const Eigen::Vector2d end = scene.camera_origin + 1.5 * reach * Eigen::Vector2d(std::cos(line.azimuth), std::sin(line.azimuth));
+    const Eigen::Vector2d end =
+        scene.camera_origin + 1.5 * reach * Eigen::Vector2d(std::cos(line.azimuth), std::sin(line.azimuth));
     canvas.line(view.at(heading_up(scene.camera_origin)), view.at(heading_up(end)), {219, 226, 236}, 0.8);
   }
 }
@@ -101,17 +102,19 @@ cv::Mat scan_picture(const perception::Scene& scene, double robot_radius_m) {
   draw_robot(canvas, view, {0.0, 0.0, 0.5 * std::numbers::pi}, robot_radius_m, colors::kInk);
   canvas.clip();
   char text[128];
-  std::snprintf(text, sizeof text, "%zu points, %zu segments, mean conflict of the five criteria %.3f", scene.points.size(),
-                scene.segments.size(), scene.mean_conflict);
+  std::snprintf(text, sizeof text, "%zu points, %zu segments, mean conflict of the five criteria %.3f",
+                scene.points.size(), scene.segments.size(), scene.mean_conflict);
   canvas.text({14.0, 22.0}, text, colors::kInk, 10.0, Anchor::kLeft, 1.2);
   const double y = kHead + kSide + 20.0;
-  legend(canvas, {14.0, y}, std::vector<LegendEntry>{{color_of(evidence::BinaryMass{1, 0, 0}), "segment: YES"},
-                                                     {color_of(evidence::BinaryMass{0, 0, 1}), "unknown"},
-                                                     {color_of(evidence::BinaryMass{0, 1, 0}), "NO"},
-                                                     {{219, 226, 236}, "radial line of the camera"}});
-  const double x = legend(canvas, {14.0, y + 20.0}, std::vector<LegendEntry>{{color_of(PrimitiveType::kCorner), "corner"},
-                                                            {color_of(PrimitiveType::kEdge), "edge"},
-                                                            {color_of(PrimitiveType::kOther), "other"}});
+  legend(canvas, {14.0, y},
+         std::vector<LegendEntry>{{color_of(evidence::BinaryMass{1, 0, 0}), "segment: YES"},
+                                  {color_of(evidence::BinaryMass{0, 0, 1}), "unknown"},
+                                  {color_of(evidence::BinaryMass{0, 1, 0}), "NO"},
+                                  {{219, 226, 236}, "radial line of the camera"}});
+  const double x = legend(canvas, {14.0, y + 20.0},
+                          std::vector<LegendEntry>{{color_of(PrimitiveType::kCorner), "corner"},
+                                                   {color_of(PrimitiveType::kEdge), "edge"},
+                                                   {color_of(PrimitiveType::kOther), "other"}});
   canvas.disc({x + 4.0, y + 16.0}, 2.2, colors::kInk);
   canvas.text({x + 12.0, y + 20.0}, "end sharpened by the camera", colors::kInk, 8.0);
   return canvas.finish();

@@ -49,13 +49,13 @@ struct Rig {
 /// acquisition before.
 struct Acquisition {
   Timestamp time = 0;
-  std::optional<OmniImage> image;  ///< absent: the camera is missing or blind
-  std::optional<RangeScan> scan;   ///< of range finder 0, the one nearest to `time`; absent: missing or all nan
-  std::vector<RangeScan> scans;    ///< all scans of all range finders since the acquisition before, by time
-  std::vector<SonarSweep> sonar;   ///< all sweeps since the acquisition before, by time
+  std::optional<OmniImage> image;         ///< absent: the camera is missing or blind
+  std::optional<RangeScan> scan;          ///< of range finder 0, the one nearest to `time`; absent: missing or all nan
+  std::vector<RangeScan> scans;           ///< all scans of all range finders since the acquisition before, by time
+  std::vector<SonarSweep> sonar;          ///< all sweeps since the acquisition before, by time
   std::vector<OdometryReading> odometry;  ///< all rows since the acquisition before
-  /// The motion from before the first to after the last reading above. Empty without odometry, until the localizer's own
-  /// velocity fills it in (Localizer::with_path).
+  /// The motion from before the first to after the last reading above. Empty without odometry, until the localizer's
+  /// own velocity fills it in (Localizer::with_path).
   MotionPath path;
   /// T_previous_current of the robot base with covariance, from odometry; absent for the first acquisition and without
   /// odometry.
@@ -71,9 +71,9 @@ struct ScanPoint {
   int beam = 0;
 };
 
-/// The finite readings of a scan as points in the base frame at `time`, each carried there along `path` from when its beam
-/// was taken; by beam. Appends nothing for nan, inf and what is
-/// outside of range_min .. range_max. `points` is cleared first and keeps its memory.
+/// The finite readings of a scan as points in the base frame at `time`, each carried there along `path` from when its
+/// beam was taken; by beam. Appends nothing for nan, inf and what is outside of range_min .. range_max. `points` is
+/// cleared first and keeps its memory.
 void carry_scan(const RangeScan& scan, const RangeFinder& range_finder, const MotionPath& path, Timestamp time,
                 std::vector<ScanPoint>& points);
 

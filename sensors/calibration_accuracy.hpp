@@ -5,8 +5,8 @@
 
 namespace credo::sensors {
 
-/// How far a sensor's calibration is to be trusted: 1-sigma of the mounting pose, of the mirror axis in the image and of
-/// the axis' tilt.
+/// How far a sensor's calibration is to be trusted: 1-sigma of the mounting pose, of the mirror axis in the image and
+/// of the axis' tilt.
 struct CalibrationAccuracy {
   double x_m = 0.002;
   double y_m = 0.002;

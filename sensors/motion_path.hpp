@@ -18,9 +18,9 @@ struct OdometryReading {
   friend bool operator==(const OdometryReading&, const OdometryReading&) = default;
 };
 
-/// How the robot moved during a stretch of time, in a frame of its own: what carries a reading from when it was taken to
-/// another moment. Interpolates between its rows; before the first and after the last row it continues with the velocity
-/// of the neighbouring interval, for at most `kLongestExtrapolation`, and rests then.
+/// How the robot moved during a stretch of time, in a frame of its own: what carries a reading from when it was taken
+/// to another moment. Interpolates between its rows; before the first and after the last row it continues with the
+/// velocity of the neighbouring interval, for at most `kLongestExtrapolation`, and rests then.
 class MotionPath {
  public:
   static constexpr Timestamp kLongestExtrapolation = 500'000'000;  // ns

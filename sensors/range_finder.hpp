@@ -15,9 +15,7 @@ struct RangeNoise {
   double sigma_0_m = 0.01;
   double k_per_m = 0.0;
 
-  [[nodiscard]] double sigma(double range_m) const {
-    return std::hypot(sigma_0_m, k_per_m * range_m * range_m);
-  }
+  [[nodiscard]] double sigma(double range_m) const { return std::hypot(sigma_0_m, k_per_m * range_m * range_m); }
   friend bool operator==(const RangeNoise&, const RangeNoise&) = default;
 };
 

@@ -16,11 +16,12 @@ struct Candidate {
 };
 
 /// Assignment of at most one column to each row and one row to each column, of the largest sum of weights.
-/// Rows whose best columns differ are resolved as they stand; what still collides is split into connected components, and
-/// only those with more than one row and one column to choose from go to the graph library. Keeps its memory.
+/// Rows whose best columns differ are resolved as they stand; what still collides is split into connected components,
+/// and only those with more than one row and one column to choose from go to the graph library. Keeps its memory.
 class Assigner {
  public:
-  /// \param candidates  each pair at most once; only positive weights can be part of the optimum, the others are skipped
+  /// \param candidates  each pair at most once; only positive weights can be part of the optimum, the others are
+  ///   skipped
   /// \returns the column of each row, -1 for none; valid until the next call. Of equal sums always the same.
   const std::vector<int>& assign(int rows, int columns, std::span<const Candidate> candidates);
 

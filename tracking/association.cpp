@@ -75,7 +75,8 @@ const Associator::Option* Associator::option(int track, int primitive) const {
 
 // ---------------------------------------------------------------------------------------------- evidence of the pairs
 
-void Associator::see(const perception::Scene& scene, const AssociationParams& params, const PredictionParams& prediction) {
+void Associator::see(const perception::Scene& scene, const AssociationParams& params,
+                     const PredictionParams& prediction) {
   points_.clear();
   walls_.clear();
   polarities_.clear();
@@ -91,7 +92,8 @@ void Associator::see(const perception::Scene& scene, const AssociationParams& pa
   }
 }
 
-void Associator::compare_azimuths(const Expected& track, const perception::Scene& scene, const AssociationParams& params) {
+void Associator::compare_azimuths(const Expected& track, const perception::Scene& scene,
+                                  const AssociationParams& params) {
   for (int i = 0; i < static_cast<int>(scene.primitives.size()); ++i) {
     const perception::Primitive& primitive = scene.primitives[i];
     if (primitive.type != track.type) continue;
@@ -100,7 +102,8 @@ void Associator::compare_azimuths(const Expected& track, const perception::Scene
   }
 }
 
-void Associator::compare_points(const Expected& track, const perception::Scene& scene, const AssociationParams& params) {
+void Associator::compare_points(const Expected& track, const perception::Scene& scene,
+                                const AssociationParams& params) {
   const PolarPoint& from_base = track.prediction->point;
   const PolarPoint from_camera = any_bearing_only_ ? seen_from(from_base, scene.camera_origin) : from_base;
   for (int i = 0; i < static_cast<int>(scene.primitives.size()); ++i) {
@@ -132,8 +135,9 @@ void Associator::compare_walls(const Expected& track, const perception::Scene& s
   keep_one_piece_per_face(first);
 }
 
-// A wall that is seen in two pieces, something standing before it, is no ambiguity: either piece is the wall. The one that
-// shares more with the prediction continues the track. Walls that stand one behind the other share directions, pieces do not.
+// A wall that is seen in two pieces, something standing before it, is no ambiguity: either piece is the wall. The one
+// that shares more with the prediction continues the track. Walls that stand one behind the other share directions,
+// pieces do not.
 void Associator::keep_one_piece_per_face(std::size_t first) {
   const std::size_t count = options_.size() - first;
   if (count < 2) return;
@@ -227,8 +231,8 @@ double Associator::best_free_weight(int track) const {
   return best;
 }
 
-// Two relations whose plausibilities, normalised among themselves, differ by less than the margin: ln of their ratio is below
-// 2 atanh(margin). Relations that differ by an exchange between two tracks are looked at.
+// Two relations whose plausibilities, normalised among themselves, differ by less than the margin: ln of their ratio is
+// below 2 atanh(margin). Relations that differ by an exchange between two tracks are looked at.
 void Associator::withhold_near_ties(double min_margin) {
   const double near = 2.0 * std::atanh(std::min(min_margin, 0.999));
   ambiguous_.assign(outcomes_.size(), 0);

@@ -16,17 +16,25 @@ namespace credo::tracking {
 /// Extended-open-world matching of predictions with primitives (Clerentin et al., sec. 4.1, fig. 12).
 struct AssociationParams {
   /// The paper's: on the difference of the azimuths [deg].
-  evidence::RampBelief azimuth_deg{.max_yes = 0.9, .yes_full_until = 0.0, .yes_zero_from = 5.0,
-                                   .max_no = 0.9, .no_zero_until = 5.0, .no_full_from = 10.0};
-  /// The default: on the Mahalanobis distance of the innovation, in its expected standard deviations. Points: azimuth, and
-  /// inverse range where a range was measured. Walls: angle and distance of the line, and the gap between the extents.
-  /// Primitives from `no_full_from` on are no candidates at all.
-  evidence::RampBelief sigmas{.max_yes = 0.9, .yes_full_until = 0.0, .yes_zero_from = 3.0,
-                              .max_no = 0.9, .no_zero_until = 3.0, .no_full_from = 6.0};
+  evidence::RampBelief azimuth_deg{.max_yes = 0.9,
+                                   .yes_full_until = 0.0,
+                                   .yes_zero_from = 5.0,
+                                   .max_no = 0.9,
+                                   .no_zero_until = 5.0,
+                                   .no_full_from = 10.0};
+  /// The default: on the Mahalanobis distance of the innovation, in its expected standard deviations. Points: azimuth,
+  /// and inverse range where a range was measured. Walls: angle and distance of the line, and the gap between the
+  /// extents. Primitives from `no_full_from` on are no candidates at all.
+  evidence::RampBelief sigmas{.max_yes = 0.9,
+                              .yes_full_until = 0.0,
+                              .yes_zero_from = 3.0,
+                              .max_no = 0.9,
+                              .no_zero_until = 3.0,
+                              .no_full_from = 6.0};
   /// Lead in pignistic probability below which a match is ambiguous (default method).
   double min_margin = 0.05;
-  /// What is left of the belief in a match (YES) where the types of two points differ, or their radial lines change from
-  /// brighter to darker in opposite senses (default method). A wall is matched with walls only.
+  /// What is left of the belief in a match (YES) where the types of two points differ, or their radial lines change
+  /// from brighter to darker in opposite senses (default method). A wall is matched with walls only.
   double reliability_of_other_type = 0.7;
   double reliability_of_other_polarity = 0.7;
   /// What even a perfect sensor and a perfect prediction leave of a point, 1-sigma.
@@ -52,12 +60,12 @@ struct Outcome {
 
 /// Who is who: the closed form track by track, the assignment where tracks compete. Keeps its memory.
 ///
-/// Paper: each track decides for the largest mass of {P_1 .. P_p, *, ignorance}, among the primitives of its type; tracks that
-/// decide for the same primitive are assigned on the sum of m(P_i) - m(*).
+/// Paper: each track decides for the largest mass of {P_1 .. P_p, *, ignorance}, among the primitives of its type;
+/// tracks that decide for the same primitive are assigned on the sum of m(P_i) - m(*).
 ///
-/// Default: the most plausible assignment of all tracks and primitives; then each track asks whether its share in it is clear:
-/// whether among what the others leave to it one of {P_i, *} leads in pignistic probability, and whether no exchange with
-/// one rival would be almost as plausible. If not it is undecided.
+/// Default: the most plausible assignment of all tracks and primitives; then each track asks whether its share in it is
+/// clear: whether among what the others leave to it one of {P_i, *} leads in pignistic probability, and whether no
+/// exchange with one rival would be almost as plausible. If not it is undecided.
 class Associator {
  public:
   /// \returns the outcome of each track, valid until the next call

@@ -17,11 +17,11 @@ namespace credo::tracking {
 namespace {
 
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
-using EdgeProperties = boost::property<
-    boost::edge_capacity_t, std::int64_t,
-    boost::property<boost::edge_residual_capacity_t, std::int64_t,
-                    boost::property<boost::edge_reverse_t, Traits::edge_descriptor,
-                                    boost::property<boost::edge_weight_t, std::int64_t>>>>;
+using EdgeProperties =
+    boost::property<boost::edge_capacity_t, std::int64_t,
+                    boost::property<boost::edge_residual_capacity_t, std::int64_t,
+                                    boost::property<boost::edge_reverse_t, Traits::edge_descriptor,
+                                                    boost::property<boost::edge_weight_t, std::int64_t>>>>;
 using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property, EdgeProperties>;
 
 // Weights as integers: Dijkstra on reduced costs needs exact sums.
@@ -38,7 +38,7 @@ void add_unit_edge(Graph& graph, std::size_t from, std::size_t to, std::int64_t 
   boost::put(boost::edge_reverse, graph, back, forth);
 }
 
-std::vector<int> sorted_unique(std::span<const Candidate> candidates, int Candidate::* member) {
+std::vector<int> sorted_unique(std::span<const Candidate> candidates, int Candidate::*member) {
   std::vector<int> values;
   for (const Candidate& c : candidates) values.push_back(c.*member);
   std::ranges::sort(values);

@@ -39,8 +39,8 @@ Shift shift(const PolarPoint& point, const Eigen::Vector2d& t) {
   const Eigen::RowVector2d azimuth_by_q = Eigen::RowVector2d(-q.y(), q.x()) / squared;
   const Eigen::RowVector2d inverse_by_q = -w / (squared * length) * q.transpose();
   const Eigen::Vector2d q_by_azimuth(-u.y(), u.x());
-  result.by_point << azimuth_by_q * q_by_azimuth, -azimuth_by_q * t,
-      inverse_by_q * q_by_azimuth, 1.0 / length - inverse_by_q * t;
+  result.by_point << azimuth_by_q * q_by_azimuth, -azimuth_by_q * t, inverse_by_q * q_by_azimuth,
+      1.0 / length - inverse_by_q * t;
   result.by_origin << -w * azimuth_by_q, -w * inverse_by_q;
   return result;
 }
@@ -99,8 +99,9 @@ double distance_in_sigmas(const PolarPoint& a, const PolarPoint& b, bool ranges_
   const Eigen::Matrix2d S = a.covariance + b.covariance;
   if (!ranges_too) return std::abs(azimuth) / std::sqrt(S(0, 0));
   const double inverse = a.inverse_range - b.inverse_range;
-  const double squared = (S(1, 1) * azimuth * azimuth - 2.0 * S(0, 1) * azimuth * inverse + S(0, 0) * inverse * inverse) /
-                         (S(0, 0) * S(1, 1) - S(0, 1) * S(0, 1));
+  const double squared =
+      (S(1, 1) * azimuth * azimuth - 2.0 * S(0, 1) * azimuth * inverse + S(0, 0) * inverse * inverse) /
+      (S(0, 0) * S(1, 1) - S(0, 1) * S(0, 1));
   return std::sqrt(std::max(0.0, squared));
 }
 

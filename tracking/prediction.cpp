@@ -56,7 +56,8 @@ void extrapolate_wall(Memory& memory, int step, const PredictionParams& params) 
 void remember_wall(Memory& memory, const WallLine& seen, int step) {
   // The history keeps one sense of direction: an angle that had to be turned by pi changes the sign of the distance.
   memory.wall_angles.add_angle(step, seen.angle, std::sqrt(seen.covariance(0, 0)), std::numbers::pi);
-  const bool turned = std::abs(geometry::angle_difference(memory.wall_angles.last(), seen.angle)) > 0.5 * std::numbers::pi;
+  const bool turned =
+      std::abs(geometry::angle_difference(memory.wall_angles.last(), seen.angle)) > 0.5 * std::numbers::pi;
   const double sigma = std::sqrt(seen.covariance(1, 1));
   memory.wall_distances.add(step, turned ? -seen.distance : seen.distance, sigma);
   WallLine reference;
@@ -66,7 +67,8 @@ void remember_wall(Memory& memory, const WallLine& seen, int step) {
 
 }  // namespace
 
-int known_faces(const perception::Primitive& primitive, const perception::Scene& scene, std::array<WallLine, 2>& faces) {
+int known_faces(const perception::Primitive& primitive, const perception::Scene& scene,
+                std::array<WallLine, 2>& faces) {
   const int first = primitive.first_segment, last = primitive.last_segment;
   const int segments = static_cast<int>(scene.segments.size());
   int known = 0;
@@ -95,8 +97,9 @@ PolarPoint seen_point(const perception::Primitive& primitive, const Eigen::Vecto
   return point;
 }
 
-void predict(Memory& memory, const perception::Primitive& last_seen, const std::optional<geometry::PoseEstimate>& motion,
-             int step, perception::Method method, const PredictionParams& params) {
+void predict(Memory& memory, const perception::Primitive& last_seen,
+             const std::optional<geometry::PoseEstimate>& motion, int step, perception::Method method,
+             const PredictionParams& params) {
   Prediction& now = memory.now;
   const bool is_wall = last_seen.type == perception::PrimitiveType::kWall;
   if (motion && method == perception::Method::kDefault) {
@@ -110,8 +113,8 @@ void predict(Memory& memory, const perception::Primitive& last_seen, const std::
   now.unmoved = true;
 }
 
-void observe(Memory& memory, const perception::Primitive& primitive, const perception::Scene& scene, int step, bool first,
-             const PredictionParams& params) {
+void observe(Memory& memory, const perception::Primitive& primitive, const perception::Scene& scene, int step,
+             bool first, const PredictionParams& params) {
   Prediction& now = memory.now;
   if (primitive.bearing_only && !first) {
     now.point = with_bearing(now.point, scene.camera_origin, primitive.azimuth, primitive.sigma_azimuth);

@@ -15,12 +15,12 @@ namespace credo::tracking {
 
 /// How what was seen is carried to the coming scene.
 struct PredictionParams {
-  /// Observations that the azimuth is extrapolated from (N_mes): under the paper's method, and in the default one where there is
-  /// no motion. Two follow a landmark that is passed closely better than three (docs/equations.md). 1..8
+  /// Observations that the azimuth is extrapolated from (N_mes): under the paper's method, and in the default one where
+  /// there is no motion. Two follow a landmark that is passed closely better than three (docs/equations.md). 1..8
   int observations_paper = 2;
   int observations = 2;
-  /// What is expected of a robot that reports no motion, from one acquisition to the next, 1-sigma: how far it drives (that
-  /// of Clerentin et al., sec. 5), how far it turns, and by how much the turn differs from the one before.
+  /// What is expected of a robot that reports no motion, from one acquisition to the next, 1-sigma: how far it drives
+  /// (that of Clerentin et al., sec. 5), how far it turns, and by how much the turn differs from the one before.
   double expected_step_m = 0.3;
   double expected_turn_rad = 10.0 * 3.14159265358979 / 180.0;
   double expected_turn_change_rad = 2.0 * 3.14159265358979 / 180.0;
@@ -58,12 +58,13 @@ int known_faces(const perception::Primitive& primitive, const perception::Scene&
 
 /// Carries the memory one step on: along the motion where there is one (default method), otherwise by extrapolation.
 /// \param step  number of the coming scene, growing by one
-void predict(Memory& memory, const perception::Primitive& last_seen, const std::optional<geometry::PoseEstimate>& motion,
-             int step, perception::Method method, const PredictionParams& params);
+void predict(Memory& memory, const perception::Primitive& last_seen,
+             const std::optional<geometry::PoseEstimate>& motion, int step, perception::Method method,
+             const PredictionParams& params);
 
 /// Takes in what was seen. A bearing without a range keeps and sharpens the range that was known before.
 /// \param first  nothing is known from before
-void observe(Memory& memory, const perception::Primitive& primitive, const perception::Scene& scene, int step, bool first,
-             const PredictionParams& params);
+void observe(Memory& memory, const perception::Primitive& primitive, const perception::Scene& scene, int step,
+             bool first, const PredictionParams& params);
 
 }  // namespace credo::tracking

@@ -29,7 +29,7 @@ struct Track {
   evidence::BinaryMass existence;
   TrackState state = TrackState::kTracked;
   LandmarkId landmark = kNoLandmark;
-  double azimuth = 0.0;  ///< in the base frame of the latest scene: observed, or predicted while missed [rad]
+  double azimuth = 0.0;        ///< in the base frame of the latest scene: observed, or predicted while missed [rad]
   double sigma_azimuth = 0.0;  ///< [rad]
   perception::Primitive last_seen;  ///< in the base frame of `last_seen_time`
   sensors::Timestamp last_seen_time = 0;
@@ -40,11 +40,11 @@ struct Track {
 
 /// A track and the primitive of the latest scene that continues it.
 struct Match {
-  int track = 0;      ///< index into Tracker::tracks()
-  int primitive = 0;  ///< index into Scene::primitives
+  int track = 0;           ///< index into Tracker::tracks()
+  int primitive = 0;       ///< index into Scene::primitives
   double match_yes = 0.0;  ///< m_match(P_i), or its pignistic probability under the default method
-  /// A wall has become a corner, an edge or an other, or the other way round (Clerentin et al., sec. 4.4): the track is the
-  /// same, what the map calls it is not. match_yes is 0: there was no matching.
+  /// A wall has become a corner, an edge or an other, or the other way round (Clerentin et al., sec. 4.4): the track is
+  /// the same, what the map calls it is not. match_yes is 0: there was no matching.
   bool transition = false;
 };
 

@@ -112,7 +112,8 @@ void Tracker::predict(const std::optional<geometry::PoseEstimate>& motion) {
   State& s = *state_;
   ++s.step;
   for (int i = 0; i < static_cast<int>(s.tracks.size()); ++i) {
-    tracking::predict(s.companions[i].memory, s.tracks[i].last_seen, motion, s.step, s.params.method, s.params.prediction);
+    tracking::predict(s.companions[i].memory, s.tracks[i].last_seen, motion, s.step, s.params.method,
+                      s.params.prediction);
     s.show_prediction(i);
   }
 }
@@ -182,7 +183,8 @@ void Tracker::State::decide(const perception::Scene& scene) {
   taken.assign(scene.primitives.size(), 0);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const Outcome& outcome = outcomes[i];
-    const bool blind = outcome.kind == MatchDecision::kNone && params.method == Method::kDefault && blind_for(tracks[i], scene);
+    const bool blind =
+        outcome.kind == MatchDecision::kNone && params.method == Method::kDefault && blind_for(tracks[i], scene);
     const bool undecided = outcome.kind == MatchDecision::kUndecided || blind;
     if (undecided && companions[i].undecided_in_a_row < params.max_undecided_in_a_row) {
       fates[i].state = TrackState::kUndecided;
@@ -249,7 +251,8 @@ int Tracker::State::add(const perception::Scene& scene, int primitive, const evi
   return static_cast<int>(tracks.size()) - 1;
 }
 
-std::optional<int> Tracker::start(const perception::Scene& scene, int primitive, double match_yes, LandmarkId landmark) {
+std::optional<int> Tracker::start(const perception::Scene& scene, int primitive, double match_yes,
+                                  LandmarkId landmark) {
   State& s = *state_;
   assert(primitive >= 0 && primitive < static_cast<int>(scene.primitives.size()));
   const auto belief = evidence::start_track(scene.primitives[primitive].existence, match_yes, s.params.belief);

@@ -9,8 +9,8 @@
 
 namespace credo::tracking {
 
-/// When a wall and a corner, an edge or an other are the same landmark: one face of it was seen before, both are seen now, or
-/// the other way round (Clerentin et al., sec. 4.4, fig. 16).
+/// When a wall and a corner, an edge or an other are the same landmark: one face of it was seen before, both are seen
+/// now, or the other way round (Clerentin et al., sec. 4.4, fig. 16).
 struct TransitionParams {
   double max_distance_m = 0.15;  ///< across the wall, and of the junction from its end
   double max_angle_rad = 10.0 * 3.14159265358979 / 180.0;
@@ -24,8 +24,8 @@ struct Junction {
   int known_faces = 0;
 };
 
-/// Whether the wall is one of the junction's faces: the junction lies on the wall's line and not amid its extent, and one of its
-/// faces is a piece of that line. A junction whose faces are not known has to lie at the wall's end.
+/// Whether the wall is one of the junction's faces: the junction lies on the wall's line and not amid its extent, and
+/// one of its faces is a piece of that line. A junction whose faces are not known has to lie at the wall's end.
 /// \param slack_m  added to the lengths allowed
 /// \returns how far the junction is from the wall's nearer end [m]; nothing where the two do not belong together
 [[nodiscard]] std::optional<double> distance_from_end(const WallLine& wall, const Junction& junction, double slack_m,

@@ -37,7 +37,8 @@ WallLine carry(const WallLine& wall_a, const geometry::PoseEstimate& T_a_b) {
   by_wall << 1.0, 0.0, shift_along, 1.0;
   Eigen::Matrix<double, 2, 3> by_motion;
   by_motion << 0.0, 0.0, -1.0, -normal.x(), -normal.y(), 0.0;
-  wall_b.covariance = by_wall * wall_a.covariance * by_wall.transpose() + by_motion * T_a_b.covariance * by_motion.transpose();
+  wall_b.covariance =
+      by_wall * wall_a.covariance * by_wall.transpose() + by_motion * T_a_b.covariance * by_motion.transpose();
   wall_b.variance_along += along.dot(T_a_b.covariance.topLeftCorner<2, 2>() * along);
   return wall_b;
 }
@@ -75,10 +76,10 @@ double distance_in_sigmas(const WallLine& seen, const WallLine& expected, const 
   const double angle_variance = P(0, 0) + floors.angle_rad * floors.angle_rad;
   const double mixed = P(0, 1) + s * P(0, 0);
   const double across_variance = P(1, 1) + 2.0 * s * P(0, 1) + s * s * P(0, 0) + floors.across_m * floors.across_m;
-  const double squared = (across_variance * difference.angle * difference.angle -
-                          2.0 * mixed * difference.angle * difference.across +
-                          angle_variance * difference.across * difference.across) /
-                         (angle_variance * across_variance - mixed * mixed);
+  const double squared =
+      (across_variance * difference.angle * difference.angle - 2.0 * mixed * difference.angle * difference.across +
+       angle_variance * difference.across * difference.across) /
+      (angle_variance * across_variance - mixed * mixed);
   const double gap = std::max(0.0, -difference.overlap);
   const double gap_variance = seen.variance_along + expected.variance_along + floors.gap_m * floors.gap_m;
   return std::sqrt(std::max(0.0, squared) + gap * gap / gap_variance);

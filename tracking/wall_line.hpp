@@ -10,8 +10,8 @@
 
 namespace credo::tracking {
 
-/// A wall in normal form: { p : normal . p = distance }, seen from `begin` to `end` along it. Under a motion of the frame
-/// angle, distance and ends change by sums only.
+/// A wall in normal form: { p : normal . p = distance }, seen from `begin` to `end` along it. Under a motion of the
+/// frame angle, distance and ends change by sums only.
 struct WallLine {
   double angle = 0.0;     ///< direction of the wall [rad]
   double distance = 0.0;  ///< signed, along normal() = direction() turned by +90 degrees [m]
@@ -22,9 +22,7 @@ struct WallLine {
 
   [[nodiscard]] Eigen::Vector2d direction() const { return {std::cos(angle), std::sin(angle)}; }
   [[nodiscard]] Eigen::Vector2d normal() const { return {-std::sin(angle), std::cos(angle)}; }
-  [[nodiscard]] Eigen::Vector2d middle() const {
-    return 0.5 * (begin + end) * direction() + distance * normal();
-  }
+  [[nodiscard]] Eigen::Vector2d middle() const { return 0.5 * (begin + end) * direction() + distance * normal(); }
 };
 
 /// Line and extent as perception gives them.
@@ -53,9 +51,9 @@ struct WallFloors {
   double gap_m = 0.10;  ///< ends move where something stands before the wall
 };
 
-/// Mahalanobis distance of the two lines (angle, distance across), and of the gap between their extents where they do not
-/// overlap. Two walls that do overlap are no further apart for showing different pieces.
-[[nodiscard]] double distance_in_sigmas(const WallLine& seen, const WallLine& expected, const WallDifference& difference,
-                                        const WallFloors& floors);
+/// Mahalanobis distance of the two lines (angle, distance across), and of the gap between their extents where they do
+/// not overlap. Two walls that do overlap are no further apart for showing different pieces.
+[[nodiscard]] double distance_in_sigmas(const WallLine& seen, const WallLine& expected,
+                                        const WallDifference& difference, const WallFloors& floors);
 
 }  // namespace credo::tracking

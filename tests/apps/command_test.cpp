@@ -52,20 +52,23 @@ class Command : public testing::Test {
   [[nodiscard]] std::string read(const fs::path& name) const { return text_of(folder_ / name); }
 
   void write_fixture() const {
-    write("ref.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0.7071067811865476 0.7071067811865476\n"
-                     "3 2 1 0 0 0 0.7071067811865476 0.7071067811865476\n4 2 2 0 0 0 1 0\n");
-    write("est.tum", "0 0.1 0 0 0 0 0 1\n1 1.1 0.1 0 0 0 0.009999833334166664 0.9999500004166653\n"
-                     "2 2.0 0.1 0 0 0 0.6892099936627883 0.7245616499893844\n"
-                     "3 2.1 1.0 0 0 0 0.7071067811865476 0.7071067811865476\n"
-                     "4 2.1 2.2 0 0 0 0.9987502603949663 0.04997916927067834\n");
+    write("ref.tum",
+          "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0.7071067811865476 0.7071067811865476\n"
+          "3 2 1 0 0 0 0.7071067811865476 0.7071067811865476\n4 2 2 0 0 0 1 0\n");
+    write("est.tum",
+          "0 0.1 0 0 0 0 0 1\n1 1.1 0.1 0 0 0 0.009999833334166664 0.9999500004166653\n"
+          "2 2.0 0.1 0 0 0 0.6892099936627883 0.7245616499893844\n"
+          "3 2.1 1.0 0 0 0 0.7071067811865476 0.7071067811865476\n"
+          "4 2.1 2.2 0 0 0 0.9987502603949663 0.04997916927067834\n");
   }
   /// A room without a camera: quick to simulate.
   void write_small_world() const {
-    write("small.yaml", "format: credo-world/1\nname: small\ndescription: one room (simulated)\n"
-                        "building:\n  rooms:\n    - outline: [[0, 0], [4, 0], [4, 3], [2.5, 3], [2.5, 2.4], [0, 2.4]]\n"
-                        "path: [[0.8, 0.8], [3.0, 0.9], [3.2, 2.0]]\ndrive: {mode: stop_and_go, step: 0.3, pause: 0.4}\n"
-                        "sensors:\n  range_finders:\n    - {preset: opensimple, pose: [0.05, 0, 0], height: 0.8}\n"
-                        "  sonars:\n    - {preset: pioneer-16, rate: 5}\n  odometry: {rate: 10}\n");
+    write("small.yaml",
+          "format: credo-world/1\nname: small\ndescription: one room (simulated)\n"
+          "building:\n  rooms:\n    - outline: [[0, 0], [4, 0], [4, 3], [2.5, 3], [2.5, 2.4], [0, 2.4]]\n"
+          "path: [[0.8, 0.8], [3.0, 0.9], [3.2, 2.0]]\ndrive: {mode: stop_and_go, step: 0.3, pause: 0.4}\n"
+          "sensors:\n  range_finders:\n    - {preset: opensimple, pose: [0.05, 0, 0], height: 0.8}\n"
+          "  sonars:\n    - {preset: pioneer-16, rate: 5}\n  odometry: {rate: 10}\n");
   }
 
   credo::tests::TemporaryFolder temporary_;
@@ -73,8 +76,8 @@ class Command : public testing::Test {
 };
 
 TEST_F(Command, HelpStartsWithExamples) {
-  for (const char* name : {"", "demo", "simulate", "run", "map", "evaluate", "evaluate ape", "evaluate rpe", "evaluate traj",
-                           "evaluate score", "evaluate nees", "evaluate map", "info"}) {
+  for (const char* name : {"", "demo", "simulate", "run", "map", "evaluate", "evaluate ape", "evaluate rpe",
+                           "evaluate traj", "evaluate score", "evaluate nees", "evaluate map", "info"}) {
     const Answer answer = credo(std::string(name) + " --help");
     EXPECT_EQ(answer.status, 0) << name;
     EXPECT_THAT(answer.out, StartsWith("Examples:\n  credo ")) << name;
@@ -85,8 +88,8 @@ TEST_F(Command, HelpStartsWithExamples) {
 TEST_F(Command, VersionIsSaid) { EXPECT_THAT(credo("--version").out, StartsWith("credo ")); }
 
 TEST_F(Command, WrongUsageEndsWithStatusTwo) {
-  for (const char* arguments : {"", "fly", "run", "run a --method magic", "evaluate", "evaluate ape one", "run a --resolution -1",
-                                "evaluate nees one", "info x --format xml"}) {
+  for (const char* arguments : {"", "fly", "run", "run a --method magic", "evaluate", "evaluate ape one",
+                                "run a --resolution -1", "evaluate nees one", "info x --format xml"}) {
     const Answer answer = credo(arguments);
     EXPECT_EQ(answer.status, 2) << arguments;
     EXPECT_THAT(answer.error, StartsWith("credo: error: ")) << arguments;
@@ -97,16 +100,16 @@ TEST_F(Command, WrongUsageEndsWithStatusTwo) {
 TEST_F(Command, NumbersOfOptionsAreFiniteAndWithinTheirBounds) {
   write_fixture();
   for (const char* option :
-       {"--t_offset nan", "--t_offset inf", "--t_offset 1e300", "--t_max_diff nan", "--t_max_diff -1", "-d nan", "-d inf",
-        "-d 1e300", "-d 0", "-d -1", "-t nan", "-t -1", "--n_to_align -2", "--n_to_align 1e99"}) {
+       {"--t_offset nan", "--t_offset inf", "--t_offset 1e300", "--t_max_diff nan", "--t_max_diff -1", "-d nan",
+        "-d inf", "-d 1e300", "-d 0", "-d -1", "-t nan", "-t -1", "--n_to_align -2", "--n_to_align 1e99"}) {
     const Answer answer = credo("evaluate rpe ref.tum est.tum " + std::string(option));
     EXPECT_EQ(answer.status, 2) << option;
     EXPECT_THAT(answer.error, AllOf(HasSubstr("expected a "), HasSubstr("found '"))) << option;
   }
-  for (const char* arguments : {"simulate office --out out --seed -1", "demo --out out --seed -1", "demo --out out --seed 1.5",
-                                "demo --out out --seed 99999999999999999999", "run data --resolution nan",
-                                "map data --resolution inf", "run data --moments -1", "evaluate map a b --tolerance nan",
-                                "evaluate traj est.tum --t_max_diff nan"}) {
+  for (const char* arguments :
+       {"simulate office --out out --seed -1", "demo --out out --seed -1", "demo --out out --seed 1.5",
+        "demo --out out --seed 99999999999999999999", "run data --resolution nan", "map data --resolution inf",
+        "run data --moments -1", "evaluate map a b --tolerance nan", "evaluate traj est.tum --t_max_diff nan"}) {
     const Answer answer = credo(arguments);
     EXPECT_EQ(answer.status, 2) << arguments;
     EXPECT_THAT(answer.error, HasSubstr("expected a ")) << arguments;
@@ -117,9 +120,14 @@ TEST_F(Command, NumbersOfOptionsAreFiniteAndWithinTheirBounds) {
 }
 
 TEST_F(Command, UnknownWordsAreMetWithTheNearestKnownOne) {
-  struct Case { const char *arguments, *nearest; };
-  for (const Case& c : {Case{"evalute ape a b", "'evaluate'"}, {"evaluate scoer a b", "'score'"}, {"rum data", "'run'"},
-                        {"run data --pictuers x", "'--pictures'"}, {"simulate office --ot=x", "'--out'"},
+  struct Case {
+    const char *arguments, *nearest;
+  };
+  for (const Case& c : {Case{"evalute ape a b", "'evaluate'"},
+                        {"evaluate scoer a b", "'score'"},
+                        {"rum data", "'run'"},
+                        {"run data --pictuers x", "'--pictures'"},
+                        {"simulate office --ot=x", "'--out'"},
                         {"evaluate ape a b --t_maxdiff 1", "'--t_max_diff'"}}) {
     const Answer answer = credo(c.arguments);
     EXPECT_EQ(answer.status, 2) << c.arguments;
@@ -130,10 +138,16 @@ TEST_F(Command, UnknownWordsAreMetWithTheNearestKnownOne) {
 TEST_F(Command, WrongInputEndsWithStatusOneAndSaysWhere) {
   write("bad.tum", "0 0 0 0 0 0 0 1\n1 0 0 zero 0 0 0 1\n");
   write("ref.tum", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");
-  struct Case { const char *arguments, *expected; };
-  for (const Case& c : {Case{"run missing", "missing"}, {"info missing", "missing"}, {"map missing", "missing"},
-                        {"simulate missing --out out", "office"}, {"evaluate ape ref.tum bad.tum", "bad.tum:2:"},
-                        {"evaluate score ref.tum missing", "missing"}, {"evaluate map ref.tum missing", "missing"}}) {
+  struct Case {
+    const char *arguments, *expected;
+  };
+  for (const Case& c : {Case{"run missing", "missing"},
+                        {"info missing", "missing"},
+                        {"map missing", "missing"},
+                        {"simulate missing --out out", "office"},
+                        {"evaluate ape ref.tum bad.tum", "bad.tum:2:"},
+                        {"evaluate score ref.tum missing", "missing"},
+                        {"evaluate map ref.tum missing", "missing"}}) {
     const Answer answer = credo(c.arguments);
     EXPECT_EQ(answer.status, 1) << c.arguments;
     EXPECT_THAT(answer.error, AllOf(StartsWith("credo: error: "), HasSubstr(c.expected))) << c.arguments;
@@ -145,14 +159,18 @@ TEST_F(Command, WrongInputEndsWithStatusOneAndSaysWhere) {
 TEST_F(Command, APlaceThatCannotBeWrittenToIsNamed) {
   write_small_world();
   write("file", "x");
-  for (const char* arguments : {"simulate small.yaml --out file/data", "simulate small.yaml --out file", "demo --out file"}) {
+  for (const char* arguments :
+       {"simulate small.yaml --out file/data", "simulate small.yaml --out file", "demo --out file"}) {
     const Answer answer = credo(arguments);
     EXPECT_EQ(answer.status, 1) << arguments;
-    EXPECT_THAT(answer.error, AllOf(StartsWith("credo: error: "), HasSubstr("file"), Not(HasSubstr("filesystem error")))) << arguments;
+    EXPECT_THAT(answer.error,
+                AllOf(StartsWith("credo: error: "), HasSubstr("file"), Not(HasSubstr("filesystem error"))))
+        << arguments;
   }
   EXPECT_EQ(read("file"), "x");
   write_fixture();
-  const std::string line = "cd '" + folder_.string() + "' && '" CREDO_COMMAND "' evaluate ape ref.tum est.tum >/dev/full 2>.error";
+  const std::string line =
+      "cd '" + folder_.string() + "' && '" CREDO_COMMAND "' evaluate ape ref.tum est.tum >/dev/full 2>.error";
   EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 1);
   EXPECT_THAT(read(".error"), HasSubstr("standard output"));
 }
@@ -200,10 +218,11 @@ TEST_F(Command, TheWholeWayOfTheData) {
   EXPECT_THAT(credo("simulate small.yaml --out data").error, HasSubstr("data"));
   answer = credo("run data --out first --pictures first/pictures --moments 1");
   ASSERT_EQ(answer.status, 0) << answer.error;
-  EXPECT_THAT(answer.out, AllOf(HasSubstr("mean position error"), HasSubstr("confidently wrong"), HasSubstr("per pair")));
-  for (const char* name : {"trajectory.tum", "localization.csv", "tracks.csv", "primitives.csv", "radial_lines.csv", "map.yaml",
-                           "map.pgm", "map_belief.tiff", "config.yaml", "pictures/errors.png", "pictures/beliefs.png",
-                           "pictures/map.png"}) {
+  EXPECT_THAT(answer.out,
+              AllOf(HasSubstr("mean position error"), HasSubstr("confidently wrong"), HasSubstr("per pair")));
+  for (const char* name :
+       {"trajectory.tum", "localization.csv", "tracks.csv", "primitives.csv", "radial_lines.csv", "map.yaml", "map.pgm",
+        "map_belief.tiff", "config.yaml", "pictures/errors.png", "pictures/beliefs.png", "pictures/map.png"}) {
     EXPECT_TRUE(fs::exists(folder_ / "first" / name)) << name;
   }
   const json info = json::parse(credo("info data --format json").out);

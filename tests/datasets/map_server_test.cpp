@@ -18,7 +18,8 @@ namespace credo::datasets {
 namespace {
 
 constexpr const char* kYaml =
-    "image: map.png\nresolution: 0.05\norigin: [-1.5, 2.0, 0.1]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    "image: map.png\nresolution: 0.05\norigin: [-1.5, 2.0, 0.1]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: "
+    "0.196\n";
 
 OccupancyMap small_map() {
   return {.width = 3,

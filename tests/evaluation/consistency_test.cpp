@@ -14,9 +14,17 @@ namespace credo::evaluation {
 namespace {
 
 TEST(ChiSquare, BoundsOfTheAverageAreTheTabulatedOnes) {
-  struct Case { int runs, dimension; double lower, upper; };
-  for (const Case& c : {Case{1, 3, 0.216, 9.348}, {10, 3, 1.679, 4.698}, {20, 3, 2.024, 4.165}, {50, 3, 2.360, 3.716},
-                        {100, 3, 2.539, 3.499}, {50, 2, 1.484, 2.591}, {100, 2, 1.627, 2.411}}) {
+  struct Case {
+    int runs, dimension;
+    double lower, upper;
+  };
+  for (const Case& c : {Case{1, 3, 0.216, 9.348},
+                        {10, 3, 1.679, 4.698},
+                        {20, 3, 2.024, 4.165},
+                        {50, 3, 2.360, 3.716},
+                        {100, 3, 2.539, 3.499},
+                        {50, 2, 1.484, 2.591},
+                        {100, 2, 1.627, 2.411}}) {
     const Bounds bounds = anees_bounds(c.runs, c.dimension);
     EXPECT_NEAR(bounds.lower, c.lower, 6e-4) << c.runs;
     EXPECT_NEAR(bounds.upper, c.upper, 6e-4) << c.runs;
@@ -24,7 +32,8 @@ TEST(ChiSquare, BoundsOfTheAverageAreTheTabulatedOnes) {
 }
 
 TEST(ChiSquare, DistributionOfTwoDegreesIsAnExponential) {
-  for (const double x : {0.0, 0.1, 1.0, 3.0, 10.0, 60.0}) EXPECT_NEAR(chi_square_cdf(x, 2), 1.0 - std::exp(-x / 2), 1e-14);
+  for (const double x : {0.0, 0.1, 1.0, 3.0, 10.0, 60.0})
+    EXPECT_NEAR(chi_square_cdf(x, 2), 1.0 - std::exp(-x / 2), 1e-14);
 }
 
 TEST(ChiSquare, QuantileInvertsTheDistribution) {
@@ -54,9 +63,7 @@ TEST(Nees, WrapsTheHeading) {
   EXPECT_NEAR(nees(e, {0, 0, -std::numbers::pi + 0.01}), 1.0, 1e-9);
 }
 
-TEST(Nees, IsInfiniteWithoutACovariance) {
-  EXPECT_EQ(nees({}, {}), std::numeric_limits<double>::infinity());
-}
+TEST(Nees, IsInfiniteWithoutACovariance) { EXPECT_EQ(nees({}, {}), std::numeric_limits<double>::infinity()); }
 
 TEST(Nees, UsesTheCrossTerms) {
   auto e = estimate(0, 0, 0, 1, 1, 1);

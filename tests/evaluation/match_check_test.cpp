@@ -16,7 +16,8 @@ using perception::PrimitiveType;
 
 /// An L: walls along y = 0 and x = 4, and their corner.
 const localization::LandmarkMap& map() {
-  static const localization::LandmarkMap value(geometry::FloorPlan{.walls = {{{0, 0}, {4, 0}}, {{4, 0}, {4, 3}}}, .verticals = {}});
+  static const localization::LandmarkMap value(
+      geometry::FloorPlan{.walls = {{{0, 0}, {4, 0}}, {{4, 0}, {4, 3}}}, .verticals = {}});
   return value;
 }
 const geometry::Pose2 kPose{2.0, 1.0, 0.5};
@@ -28,7 +29,8 @@ tracking::LandmarkId corner_id() {
   return tracking::kNoLandmark;
 }
 
-Primitive corner_seen(double azimuth_error, double range_error, double sigma_azimuth = 0.002, double sigma_range = 0.01) {
+Primitive corner_seen(double azimuth_error, double range_error, double sigma_azimuth = 0.002,
+                      double sigma_range = 0.01) {
   const Eigen::Vector2d p = kPose.inverse() * Eigen::Vector2d(4, 0);
   Primitive seen;
   seen.type = PrimitiveType::kCorner;

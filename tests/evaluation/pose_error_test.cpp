@@ -28,9 +28,11 @@ Trajectory trajectory(std::string name, const std::vector<Pose2>& poses) {
 }
 
 AssociatedPair fixture() {
-  return associate(trajectory("ref", {{0, 0, 0}, {1, 0, 0}, {2, 0, kPi / 2}, {2, 1, kPi / 2}, {2, 2, kPi}}),
-                   trajectory("est", {{0.1, 0, 0}, {1.1, 0.1, 0.02}, {2.0, 0.1, kPi / 2 - 0.05}, {2.1, 1.0, kPi / 2},
-                                      {2.1, 2.2, kPi - 0.1}}));
+  return associate(
+      trajectory("ref", {{0, 0, 0}, {1, 0, 0}, {2, 0, kPi / 2}, {2, 1, kPi / 2}, {2, 2, kPi}}),
+      trajectory(
+          "est",
+          {{0.1, 0, 0}, {1.1, 0.1, 0.02}, {2.0, 0.1, kPi / 2 - 0.05}, {2.1, 1.0, kPi / 2}, {2.1, 2.2, kPi - 0.1}}));
 }
 
 void expect_statistics(const Statistics& s, const std::array<double, 7>& golden) {
@@ -78,10 +80,11 @@ TEST(Rpe, AgreesWithEvoOnAnglesPerFrame) {
 }
 
 TEST(Rpe, AgreesWithEvoOnAllPairsOfTheReferenceTwoMetresApart) {
-  expect_statistics(relative_pose_error(fixture(), {.delta = 2.0, .unit = DeltaUnit::kMetres, .all_pairs = true,
-                                                    .pairs_from_reference = true})
-                        .statistics,
-                    {0.141421, 0.121803, 0.121490, 0.102499, 0.122836, 0.045266, 0.015891});
+  expect_statistics(
+      relative_pose_error(fixture(),
+                          {.delta = 2.0, .unit = DeltaUnit::kMetres, .all_pairs = true, .pairs_from_reference = true})
+          .statistics,
+      {0.141421, 0.121803, 0.121490, 0.102499, 0.122836, 0.045266, 0.015891});
 }
 
 TEST(Rpe, PicksPairsAsEvoDoes) {
@@ -132,8 +135,8 @@ TEST(Statistics, AreThoseOfThePopulation) {
 }
 
 TEST(Umeyama, RefusesAStraightLine) {
-  AssociatedPair pair = associate(trajectory("a", {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}),
-                                  trajectory("b", {{0, 1, 0}, {1, 1, 0}, {2, 1, 0}}));
+  AssociatedPair pair =
+      associate(trajectory("a", {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}), trajectory("b", {{0, 1, 0}, {1, 1, 0}, {2, 1, 0}}));
   EXPECT_THAT([&] { align(pair, {.align = true}); },
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("straight line")));
 }

@@ -51,8 +51,12 @@ TEST(BeliefShapes, WhatCouldNotBeMeasuredSaysNothing) {
 }
 
 RC_GTEST_PROP(BeliefShapesLaws, EveryValueGivesAMass, (int quantity)) {
-  const RampBelief overlapping{
-      .max_yes = .7, .yes_full_until = .01, .yes_zero_from = .04, .max_no = .4, .no_zero_until = .03, .no_full_from = .08};
+  const RampBelief overlapping{.max_yes = .7,
+                               .yes_full_until = .01,
+                               .yes_zero_from = .04,
+                               .max_no = .4,
+                               .no_zero_until = .03,
+                               .no_full_from = .08};
   const BinaryMass mass = overlapping(quantity * 1e-3);
   RC_ASSERT(std::abs(total(mass) - 1.0) < 1e-15);
   RC_ASSERT(mass.yes >= 0.0 && mass.no >= 0.0 && mass.unknown >= 0.0);

@@ -128,7 +128,8 @@ TEST(BinaryMass, OpposedExpertsShareTheBelief) {
   EXPECT_NEAR(moved.mass.unknown, .9802, 1e-15);
 }
 
-// ... and as he gave it: both doctors leave .01 to the diagnosis that neither believes. Seen as that one against the rest.
+// ... and as he gave it: both doctors leave .01 to the diagnosis that neither believes. Seen as that one against the
+// rest.
 TEST(BinaryMass, AgreementOnTheUnlikelyIsNoConflictAgainstTheRest) {
   const auto normalised = dempster({{.01, .99, 0.0}, {.01, .99, 0.0}});
   ASSERT_TRUE(normalised);

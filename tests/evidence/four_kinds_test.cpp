@@ -24,8 +24,10 @@ struct Enumerated {
 };
 Enumerated enumerate(const WhichKind& which, const WhetherRegular& whether) {
   Enumerated result;
-  const std::pair<unsigned, double> first[] = {{1 | 8, which.one_or_other[0]}, {2 | 8, which.one_or_other[1]},
-                                               {4 | 8, which.one_or_other[2]}, {15, which.unknown}};
+  const std::pair<unsigned, double> first[] = {{1 | 8, which.one_or_other[0]},
+                                               {2 | 8, which.one_or_other[1]},
+                                               {4 | 8, which.one_or_other[2]},
+                                               {15, which.unknown}};
   const std::pair<unsigned, double> second[] = {{7, whether.regular}, {8, whether.other}, {15, whether.unknown}};
   for (const auto& [a, m] : first) {
     for (const auto& [b, n] : second) result.mass[a & b] += m * n;

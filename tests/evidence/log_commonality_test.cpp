@@ -81,7 +81,8 @@ RC_GTEST_PROP(FixedLogCommonalityLaws, QuantisationIsHalfAUnit, (const GridMass&
 }
 
 TEST(LogCommonality, NothingKnownIsPlusZero) {
-  for (const LogCommonality& cell : {log_commonality(GridMass::vacuous(), .9), log_commonality({.5, .3, .2, 0.0}, 0.0)}) {
+  for (const LogCommonality& cell :
+       {log_commonality(GridMass::vacuous(), .9), log_commonality({.5, .3, .2, 0.0}, 0.0)}) {
     EXPECT_EQ(cell, LogCommonality{});
     EXPECT_FALSE(std::signbit(cell.empty) || std::signbit(cell.occupied) || std::signbit(cell.unknown));
   }
@@ -174,7 +175,8 @@ TEST(LogCommonality, ReadOutsStandAnyAmountOfEvidence) {
 }
 
 TEST(LogCommonality, ConflictOfFaintEvidenceKeepsItsDigits) {
-  const LogCommonality cell = log_commonality(GridMass::from(1e-10, 0.0), .5) + log_commonality(GridMass::from(0.0, 1e-9), .5);
+  const LogCommonality cell =
+      log_commonality(GridMass::from(1e-10, 0.0), .5) + log_commonality(GridMass::from(0.0, 1e-9), .5);
   EXPECT_NEAR(conflict(cell) / (.25 * 1e-19), 1.0, 1e-6);
 }
 

@@ -203,8 +203,8 @@ TEST(OpenWorld, BothDecisionsTakeAClearMatch) {
   }
 }
 
-// A lone candidate that is neither near nor far: by mass the lumped ignorance wins and the prediction is lost; by pignistic
-// probability the ignorance does not compete.
+// A lone candidate that is neither near nor far: by mass the lumped ignorance wins and the prediction is lost; by
+// pignistic probability the ignorance does not compete.
 TEST(OpenWorld, IgnoranceCompetesByMassOnly) {
   OpenWorldMatcher matcher;
   matcher.combine(Candidates{{.3, 0.0, .7}});

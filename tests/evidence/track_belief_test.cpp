@@ -40,8 +40,8 @@ INSTANTIATE_TEST_SUITE_P(Beliefs, TrackLife,
                                            LifeCase{.85, 9, 5}, LifeCase{.90, 11, 5}, LifeCase{.95, 14, 6},
                                            LifeCase{.99, 21, 6}, LifeCase{1.0, -1, 6}));
 
-// Clerentin et al., fig. 21: matched by hand with (.5, 0, .5), tracked until acquisition 7, lost at 12. With the masses of
-// their table 1 and any quality of the match.
+// Clerentin et al., fig. 21: matched by hand with (.5, 0, .5), tracked until acquisition 7, lost at 12. With the masses
+// of their table 1 and any quality of the match.
 int acquisition_of_loss(const BinaryMass& observation, double match_yes, const TrackBeliefParams& params) {
   BinaryMass track{.yes = .5, .no = 0.0, .unknown = .5};
   for (int acquisition = 1; acquisition <= 7; ++acquisition) {
@@ -52,8 +52,9 @@ int acquisition_of_loss(const BinaryMass& observation, double match_yes, const T
 
 TEST(TrackBelief, ALostTrackDiesAsPublishedWithConflictToIgnorance) {
   int as_published = 0, earliest = 99, latest = 0, earliest_dempster = 99;
-  for (const BinaryMass& observation : {BinaryMass::from(.72, .08), BinaryMass::from(.33, .25), BinaryMass::from(.70, .03),
-                                        BinaryMass::from(.64, .16), BinaryMass::from(.2, .1)}) {
+  for (const BinaryMass& observation :
+       {BinaryMass::from(.72, .08), BinaryMass::from(.33, .25), BinaryMass::from(.70, .03), BinaryMass::from(.64, .16),
+        BinaryMass::from(.2, .1)}) {
     for (const double match_yes : {.3, .5, .8, .9}) {
       const int lost = acquisition_of_loss(observation, match_yes, {});
       as_published += lost == 12;

@@ -103,12 +103,22 @@ json primitive_type(const json& in) {
   const FourKindMass mass = combine(which, whether);
   const int kind = most_believed(mass);
   const BinaryMass is_kind = belief_in_kind(mass, kind);
-  return {{"m1", {{"1u4", which.one_or_other[0]}, {"2u4", which.one_or_other[1]}, {"3u4", which.one_or_other[2]},
-                  {"1u2u3u4", which.unknown}}},
+  return {{"m1",
+           {{"1u4", which.one_or_other[0]},
+            {"2u4", which.one_or_other[1]},
+            {"3u4", which.one_or_other[2]},
+            {"1u2u3u4", which.unknown}}},
           {"m2", {{"1u2u3", whether.regular}, {"4", whether.other}, {"1u2u3u4", whether.unknown}}},
-          {"m_type", {{"1", mass.one[0]}, {"2", mass.one[1]}, {"3", mass.one[2]}, {"4", mass.other},
-                      {"1u4", mass.one_or_other[0]}, {"2u4", mass.one_or_other[1]}, {"3u4", mass.one_or_other[2]},
-                      {"1u2u3", mass.regular}, {"1u2u3u4", mass.unknown}}},
+          {"m_type",
+           {{"1", mass.one[0]},
+            {"2", mass.one[1]},
+            {"3", mass.one[2]},
+            {"4", mass.other},
+            {"1u4", mass.one_or_other[0]},
+            {"2u4", mass.one_or_other[1]},
+            {"3u4", mass.one_or_other[2]},
+            {"1u2u3", mass.regular},
+            {"1u2u3u4", mass.unknown}}},
           {"type", kind + 1},
           {"cr", is_kind.yes},
           {"m2prim", written(is_kind)}};
@@ -172,8 +182,8 @@ Operations covered_operations() {
   return {
       {"conj", on_two_elements([](const json& in) { return written(conjunctive(all(in.at("masses"), binary))); })},
       {"dempster", on_two_elements([](const json& in) { return written(dempster(all(in.at("masses"), binary))); })},
-      {"yager",
-       on_two_elements([](const json& in) { return written(conflict_to_ignorance(all(in.at("masses"), binary)).mass); })},
+      {"yager", on_two_elements(
+                    [](const json& in) { return written(conflict_to_ignorance(all(in.at("masses"), binary)).mass); })},
       {"dsmc", on_two_elements([](const json& in) { return written(dsmc(all(in.at("masses"), grid))); })},
       {"discount", on_two_elements([](const json& in) {
          const double reliability = in.at("alpha");
@@ -181,33 +191,43 @@ Operations covered_operations() {
                                            : written(discount(grid(in.at("mass")), reliability));
        })},
       {"measures", on_two_elements(measures)},
-      {"segment_fusion", [](const json& in) -> json {
+      {"segment_fusion",
+       [](const json& in) -> json {
          const FusedBinaryMass fused = conflict_to_ignorance(all(in.at("masses"), binary));
          return {{"m", written(fused.mass)}, {"conflict", fused.conflict}};
        }},
-      {"ramp_bpa", [](const json& in) {
-         return written(RampBelief{.max_yes = in.at("ymax"), .yes_full_until = in.at("y0"), .yes_zero_from = in.at("y1"),
-                                   .max_no = in.at("nmax"), .no_zero_until = in.at("n0"), .no_full_from = in.at("n1")}(
-             in.at("x")));
+      {"ramp_bpa",
+       [](const json& in) {
+         return written(RampBelief{.max_yes = in.at("ymax"),
+                                   .yes_full_until = in.at("y0"),
+                                   .yes_zero_from = in.at("y1"),
+                                   .max_no = in.at("nmax"),
+                                   .no_zero_until = in.at("n0"),
+                                   .no_full_from = in.at("n1")}(in.at("x")));
        }},
       {"primitive_type", primitive_type},
-      {"primitive_existence", [](const json& in) {
+      {"primitive_existence",
+       [](const json& in) {
          return written(
              joint_existence(binary(in.at("seg1")), binary(in.at("seg2")), binary(in.at("m2prim")), rule_of(in)));
        }},
       {"wall_existence",
-       [](const json& in) { return written(fuse({binary(in.at("seg")), binary(in.at("m2prim"))}, rule_of(in))); }},
+       [](const json& in) {
+         return written(fuse({binary(in.at("seg")), binary(in.at("m2prim"))}, rule_of(in)));
+       }},
       {"open_world", [](const json& in) { return open_world(in, true); }},
       {"open_world_unnormalised", [](const json& in) { return open_world(in, false); }},
       {"wall_match", match},
       {"point_match", match},
       {"alpha_discount", [](const json& in) { return written(discount_by_own_denial(binary(in.at("m1")))); }},
-      {"track_init", [](const json& in) {
+      {"track_init",
+       [](const json& in) {
          return written(start_track(binary(in.at("m_prim")), in.at("y_match"), {.rule = rule_of(in)}));
        }},
-      {"track_update", [](const json& in) {
-         return written(update_track(binary(in.at("m_track")), binary(in.at("m_prim")), in.at("y_match"),
-                                     {.rule = rule_of(in)}));
+      {"track_update",
+       [](const json& in) {
+         return written(
+             update_track(binary(in.at("m_track")), binary(in.at("m_prim")), in.at("y_match"), {.rule = rule_of(in)}));
        }},
       {"track_miss",
        [](const json& in) { return written(miss_track(binary(in.at("m_track")), {.rule = rule_of(in)})); }},

@@ -60,7 +60,8 @@ TEST(WholeBelief, TotalConflictHasNoDempster) {
   EXPECT_EQ(whole_from_mean_part(Masses{{1.0, 0.0, 0.0}}, parts).mass, BinaryMass::vacuous());
 }
 
-// Two parallel walls of one length: near in angle and length, far apart. The paper tells that the conflict refuses them.
+// Two parallel walls of one length: near in angle and length, far apart. The paper tells that the conflict refuses
+// them.
 TEST(GatedMatch, ParallelWallsAreRefusedByTheirConflict) {
   const GatedMatch walls = gated_match(Masses{{.9, 0.0, .1}, {.6, 0.0, .4}, {0.0, .8, .2}});
   EXPECT_NEAR(walls.mass.conflict, .768, 1e-15);

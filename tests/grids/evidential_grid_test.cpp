@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <rapidcheck/gtest.h>
 #include <algorithm>
 #include <limits>
 #include <random>
-#include <rapidcheck/gtest.h>
 #include <stdexcept>
 #include <vector>
 
@@ -56,7 +56,8 @@ RC_GTEST_PROP(EvidentialGridLaws, TheOrderOfEvidenceDoesNotMatterToTheBit, (unsi
 
 RC_GTEST_PROP(EvidentialGridLaws, MergingIsTheSameAsMappingTogether, (unsigned seed)) {
   std::mt19937 random(seed);
-  const auto a = contributions(random, 100, 150), b = contributions(random, 100, 150), c = contributions(random, 50, 150);
+  const auto a = contributions(random, 100, 150), b = contributions(random, 100, 150),
+             c = contributions(random, 50, 150);
   std::vector<Contribution> all = a;
   all.insert(all.end(), b.begin(), b.end());
   all.insert(all.end(), c.begin(), c.end());
@@ -74,7 +75,8 @@ RC_GTEST_PROP(EvidentialGridLaws, MergingIsTheSameAsMappingTogether, (unsigned s
 
 RC_GTEST_PROP(EvidentialGridLaws, RemovingRestores, (unsigned seed)) {
   std::mt19937 random(seed);
-  const EvidentialGrid mine = grid_of(contributions(random, 100, 150)), other = grid_of(contributions(random, 100, 150));
+  const EvidentialGrid mine = grid_of(contributions(random, 100, 150)),
+                       other = grid_of(contributions(random, 100, 150));
   EvidentialGrid merged = mine;
   merged.merge(other);
   RC_ASSERT(!(merged == mine));

@@ -56,8 +56,8 @@ TEST(Layer, MassesOfACellSumToOne) {
   grid.add({0, 0}, evidence_of(3, 2));
   const auto one = [&](Layer which) { return layer(grid, {{0, 0}, 1, 1}, which).front(); };
   EXPECT_NEAR(one(Layer::kEmpty) + one(Layer::kOccupied) + one(Layer::kUnknown), 1.0, 1e-6);
-  EXPECT_NEAR(one(Layer::kRawEmpty) + one(Layer::kRawOccupied) + one(Layer::kRawUnknown) + one(Layer::kRawConflict), 1.0,
-              1e-6);
+  EXPECT_NEAR(one(Layer::kRawEmpty) + one(Layer::kRawOccupied) + one(Layer::kRawUnknown) + one(Layer::kRawConflict),
+              1.0, 1e-6);
   EXPECT_GT(one(Layer::kRawConflict), 0.9F);
   EXPECT_GT(one(Layer::kContested), 0.5F);
   // Dempster's ratio of the masses is that of the raw ones.

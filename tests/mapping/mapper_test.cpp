@@ -81,8 +81,8 @@ sensors::RangeScan scan_of_room(const sensors::RangeFinder& finder, const Pose2&
   const Pose2 sensor = base * finder.T_base_sensor;
   sensors::RangeScan scan;
   for (int i = 0; i < finder.count; ++i)
-    scan.ranges_m.push_back(static_cast<float>(
-        distance_to_room(sensor.translation(), sensor.theta + finder.beam_angle(i), width, height)));
+    scan.ranges_m.push_back(
+        static_cast<float>(distance_to_room(sensor.translation(), sensor.theta + finder.beam_angle(i), width, height)));
   return scan;
 }
 
@@ -97,7 +97,8 @@ double weight(const FixedLogCommonality& cell) {  // all evidence in a cell
   return evidence::evidence_for_empty(cell.value()) + evidence::evidence_for_occupied(cell.value());
 }
 
-// ---------------------------------------------------------------------------------------------------------------- laser
+// ----------------------------------------------------------------------------------------------------------------
+// laser
 
 TEST(MapperLaser, AnEmptyRoomGetsItsWallsWithinACell) {
   const sensors::RangeFinder finder = panoramic();
@@ -116,7 +117,8 @@ TEST(MapperLaser, AnEmptyRoomGetsItsWallsWithinACell) {
         ++walls;
         bool found = false;
         for (int dy = -1; dy <= 1; ++dy)
-          for (int dx = -1; dx <= 1; ++dx) found |= grids::decide(grid.at({x + dx, y + dy})) == grids::CellState::kOccupied;
+          for (int dx = -1; dx <= 1; ++dx)
+            found |= grids::decide(grid.at({x + dx, y + dy})) == grids::CellState::kOccupied;
         walls_found += found;
       } else if (x < -1 || y < -1 || x > 120 || y > 60) {  // behind the walls
         EXPECT_NE(state, grids::CellState::kEmpty) << x << ' ' << y;
@@ -154,7 +156,7 @@ TEST(MapperLaser, EveryCellGetsTheEvidenceOfItsBeamOnce) {
     for (int x = centre.x - 130; x <= centre.x + 130; ++x) {
       const Eigen::Vector2d p = T_sensor_map * params.georeference.centre({x, y});
       const double rho = p.norm(), beams = geometry::wrap_angle(std::atan2(p.y(), p.x()) - finder.angle_min_rad) /
-                                            finder.angle_increment_rad;
+                                           finder.angle_increment_rad;
       const double place = beams < -100.0 ? beams + 360.0 : beams;  // wrap_angle cuts behind the last beams
       if (std::abs(place - std::round(place)) > 0.499) continue;    // on the border of two sectors
       const int beam = static_cast<int>(std::round(place));
@@ -171,8 +173,8 @@ TEST(MapperLaser, EveryCellGetsTheEvidenceOfItsBeamOnce) {
   }
   EXPECT_GT(compared, 60'000);
   EXPECT_GT(painted, 5'000);
-  EXPECT_EQ(mapper.counts().missing, std::count_if(scan.ranges_m.begin(), scan.ranges_m.end(),
-                                                   [](float r) { return std::isnan(r); }));
+  EXPECT_EQ(mapper.counts().missing,
+            std::count_if(scan.ranges_m.begin(), scan.ranges_m.end(), [](float r) { return std::isnan(r); }));
 }
 
 TEST(MapperLaser, BeamsThatTurnTheOtherWayGiveTheSameMap) {
@@ -255,8 +257,8 @@ TEST(MapperLaser, AWallMetAtAGrazingAngleHasNoHoles) {
   const Pose2 pose{0.5, 0.52, 0.0};  // half a metre beside a wall along x, seen up to 5 degrees
   mapper.insert(certain(pose), scan_of_room(finder, pose, 6.0, 3.0));
   for (int x = 12; x < 100; ++x) {  // up to the beam before the corner
-    const bool occupied = weight(mapper.grid().at({x, 0})) > 0.0 &&
-                          evidence::pignistic_occupied(mapper.grid().at({x, 0}).value()) > 0.5;
+    const bool occupied =
+        weight(mapper.grid().at({x, 0})) > 0.0 && evidence::pignistic_occupied(mapper.grid().at({x, 0}).value()) > 0.5;
     const bool below = evidence::pignistic_occupied(mapper.grid().at({x, -1}).value()) > 0.5;
     EXPECT_TRUE(occupied || below) << x;
   }
@@ -276,8 +278,8 @@ TEST(MapperLaser, AScanTakenWhileTurningIsCarriedAlongThePath) {
   for (int i = 0; i < finder.count; ++i) {
     const sensors::Timestamp now = time + sensors::from_seconds(finder.beam_time(i));
     const Pose2 sensor = middle * path.motion(time, now);
-    scan.ranges_m.push_back(static_cast<float>(
-        distance_to_room(sensor.translation(), sensor.theta + finder.beam_angle(i), 6.0, 3.0)));
+    scan.ranges_m.push_back(
+        static_cast<float>(distance_to_room(sensor.translation(), sensor.theta + finder.beam_angle(i), 6.0, 3.0)));
   }
   const auto misplaced = [](const grids::EvidentialGrid& grid) {
     int wrong = 0;
@@ -296,7 +298,8 @@ TEST(MapperLaser, AScanTakenWhileTurningIsCarriedAlongThePath) {
   EXPECT_GT(misplaced(rigid.grid()), 100);
 }
 
-// ---------------------------------------------------------------------------------------------------------------- sonar
+// ----------------------------------------------------------------------------------------------------------------
+// sonar
 
 TEST(MapperSonar, TouchesOnlyTheFanAndSaysWhatTheModelSays) {
   const sensors::SonarRing ring = one_sonar();
@@ -325,8 +328,8 @@ TEST(MapperSonar, TouchesOnlyTheFanAndSaysWhatTheModelSays) {
         const auto expected = evidence::log_commonality(model.mass(rho, theta, sweep.ranges_m[0]), model.reliability());
         // The model jumps where eqs. (5) to (8) begin and end; a table cannot say on which side a cell is.
         const double past = rho - sweep.ranges_m[0], eps = params.sonar.epsilon_m;
-        const bool at_jump = std::abs(past - eps) < 0.02 || std::abs(past - 2.0 * eps) < 0.02 ||
-                             std::abs(rho - ring.range_min_m) < 0.02;
+        const bool at_jump =
+            std::abs(past - eps) < 0.02 || std::abs(past - 2.0 * eps) < 0.02 || std::abs(rho - ring.range_min_m) < 0.02;
         if (at_jump) continue;
         const double error = std::max({std::abs(cell.value().empty - expected.empty),
                                        std::abs(cell.value().occupied - expected.occupied),
@@ -391,7 +394,8 @@ TEST(MapperSonar, FiringTimesCarryTheTransducers) {
   EXPECT_EQ(carried.grid().bounding_box(), expected.grid().bounding_box());
 }
 
-// ---------------------------------------------------------------------------------------------------------------- poses
+// ----------------------------------------------------------------------------------------------------------------
+// poses
 
 TEST(MapperPose, AnUnsurePoseMapsLessAndALostOneNothing) {
   const sensors::RangeFinder finder = panoramic();

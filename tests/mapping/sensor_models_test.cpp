@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <rapidcheck/gtest.h>
 #include <cmath>
 #include <limits>
-#include <rapidcheck/gtest.h>
 
 #include "mapping/laser_model.hpp"
 #include "mapping/sonar_model.hpp"
@@ -91,7 +91,8 @@ TEST(Li2007, RefusesParametersThatCannotBe) {
 
 TEST(Li2006Laser, KeepsThePapersWidthForTimeOfFlightAndWidensForTriangulation) {
   const Li2006Laser model;
-  const sensors::RangeNoise flight{.sigma_0_m = 0.01, .k_per_m = 0.0}, triangulation{.sigma_0_m = 0.005, .k_per_m = 0.0045};
+  const sensors::RangeNoise flight{.sigma_0_m = 0.01, .k_per_m = 0.0},
+      triangulation{.sigma_0_m = 0.005, .k_per_m = 0.0045};
   EXPECT_DOUBLE_EQ(model.half_width(8.0, flight), 0.05);
   EXPECT_DOUBLE_EQ(model.hit_share(8.0, flight), 1.0);
   EXPECT_DOUBLE_EQ(model.free_margin(8.0, flight), 0.05);

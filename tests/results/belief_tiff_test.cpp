@@ -40,7 +40,8 @@ BeliefImage numbered(int width, int height) {
   return image;
 }
 
-/// The first directory as the TIFF 6.0 specification has it, independent of the room's own reader. Little-endian machine.
+/// The first directory as the TIFF 6.0 specification has it, independent of the room's own reader. Little-endian
+/// machine.
 std::map<int, std::vector<std::uint32_t>> directory(const std::string& bytes) {
   const auto at = [&](std::size_t place, int size) {
     std::uint32_t value = 0;
@@ -59,7 +60,8 @@ std::map<int, std::vector<std::uint32_t>> directory(const std::string& bytes) {
     last = tag;
     const int size = type == 3 ? 2 : type == 4 ? 4 : 1;
     const std::size_t values = count * static_cast<std::uint32_t>(size) <= 4 ? field + 8 : at(field + 8, 4);
-    for (std::uint32_t k = 0; k < count; ++k) fields[static_cast<int>(tag)].push_back(at(values + k * static_cast<std::size_t>(size), size));
+    for (std::uint32_t k = 0; k < count; ++k)
+      fields[static_cast<int>(tag)].push_back(at(values + k * static_cast<std::size_t>(size), size));
   }
   return fields;
 }
@@ -163,7 +165,8 @@ TEST(BeliefImage, HoldsTheMassesOfTheGridTopRowFirst) {
   const auto& contested = raw.pixels[1];
   EXPECT_NEAR(contested[2], 0.72F * 0.72F, 1e-4F);  // mass of the conflict
   EXPECT_NEAR(contested[0] + contested[1] + contested[2] + contested[3], 1.0F, 1e-6F);
-  EXPECT_EQ(belief_image(grids::EvidentialGrid{}).pixels, (std::vector<std::array<float, 4>>{{0.0F, 0.0F, 0.0F, 1.0F}}));
+  EXPECT_EQ(belief_image(grids::EvidentialGrid{}).pixels,
+            (std::vector<std::array<float, 4>>{{0.0F, 0.0F, 0.0F, 1.0F}}));
 }
 
 }  // namespace

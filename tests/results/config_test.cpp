@@ -64,7 +64,8 @@ TEST(Config, HoldsParametersOfEveryComponentAsUsed) {
 TEST(Config, IsTheSameForTheSameParameters) { EXPECT_EQ(to_yaml(RunConfig{}), to_yaml(RunConfig{})); }
 
 TEST(Config, OfAMapSaysWhereThePosesCameFrom) {
-  EXPECT_THAT(to_yaml(mapping::TrajectoryMappingParams{}, "1", "log", "ground truth"), HasSubstr("map_poses: \"ground truth\""));
+  EXPECT_THAT(to_yaml(mapping::TrajectoryMappingParams{}, "1", "log", "ground truth"),
+              HasSubstr("map_poses: \"ground truth\""));
 }
 
 }  // namespace

@@ -85,10 +85,12 @@ TEST_F(Table, ErrorsNameFileAndLine) {
               ThrowsMessage<std::runtime_error>(HasSubstr(".csv:3: expected 23 columns, found 3")));
   std::string odd = line;
   odd.replace(odd.find("uncertain"), 9, "confident");
-  EXPECT_THAT([&] { (void)read(header_ + odd); }, ThrowsMessage<std::runtime_error>(HasSubstr("unknown status 'confident'")));
+  EXPECT_THAT([&] { (void)read(header_ + odd); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("unknown status 'confident'")));
   std::string word = line;
   word.replace(word.find("1.25"), 4, "left");
-  EXPECT_THAT([&] { (void)read(header_ + word); }, ThrowsMessage<std::runtime_error>(HasSubstr(".csv:2: expected a number in column 2")));
+  EXPECT_THAT([&] { (void)read(header_ + word); },
+              ThrowsMessage<std::runtime_error>(HasSubstr(".csv:2: expected a number in column 2")));
   EXPECT_THROW((void)read_localization("no such file"), std::runtime_error);
 }
 

@@ -50,7 +50,8 @@ TEST_F(MapFolder, KeepsPlaceMassesAndDecisions) {
   const Eigen::Vector2d centre = grid.georeference().centre(a.min), centre_back = back.georeference().centre(b.min);
   EXPECT_NEAR((centre - centre_back).norm(), 0.0, 1e-6);
   EXPECT_EQ(grids::decisions(grid, a), grids::decisions(back, b));
-  for (const grids::Layer which : {grids::Layer::kEmpty, grids::Layer::kOccupied, grids::Layer::kUnknown, grids::Layer::kContested}) {
+  for (const grids::Layer which :
+       {grids::Layer::kEmpty, grids::Layer::kOccupied, grids::Layer::kUnknown, grids::Layer::kContested}) {
     const auto x = grids::layer(grid, a, which), y = grids::layer(back, b, which);
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], y[i], 1e-4);
   }
@@ -58,7 +59,8 @@ TEST_F(MapFolder, KeepsPlaceMassesAndDecisions) {
 
 TEST_F(MapFolder, RefusesRawMassesAndMissingFiles) {
   write(example(), BeliefChannels::kRaw);
-  EXPECT_THAT([&] { (void)read_map_folder(folder_); }, testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("--readout raw")));
+  EXPECT_THAT([&] { (void)read_map_folder(folder_); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("--readout raw")));
   fs::remove(folder_ / "map.yaml");
   EXPECT_THROW((void)read_map_folder(folder_), std::runtime_error);
 }

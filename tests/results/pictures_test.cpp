@@ -34,7 +34,8 @@ History history() {
     m.localization.estimate.covariance.diagonal() << 1e-4, 2e-4, 1e-5;
     m.localization.belief = {.yes = 0.8, .no = 0.0, .unknown = 0.2};
     m.localization.status = i == 4 ? localization::Status::kLost : localization::Status::kLocalized;
-    m.tracks = {{.id = 1, .type = perception::PrimitiveType::kEdge, .existence = {.yes = 1.0, .no = 0.0, .unknown = 0.0}}};
+    m.tracks = {
+        {.id = 1, .type = perception::PrimitiveType::kEdge, .existence = {.yes = 1.0, .no = 0.0, .unknown = 0.0}}};
     m.truth = geometry::Pose2{0.3 * i + 0.01, 1.0, 0.1};
     result.push_back(m);
   }
@@ -111,7 +112,7 @@ TEST(Pictures, TheMapShowsOccupiedCellsUpright) {
     for (int y = 0; y < 20; ++y) grid.add({x, y}, y >= 15 ? occupied : empty);
   }
   const cv::Mat picture = map_picture(grid);
-  EXPECT_EQ(picture.at<cv::Vec3b>(60, 300), cv::Vec3b(36, 30, 28));     // the upper rows of the map are on top
+  EXPECT_EQ(picture.at<cv::Vec3b>(60, 300), cv::Vec3b(36, 30, 28));  // the upper rows of the map are on top
   EXPECT_EQ(picture.at<cv::Vec3b>(600, 300), cv::Vec3b(255, 255, 255));
 }
 

@@ -74,7 +74,8 @@ TEST_F(Results, TablesHaveTheirColumnsAndTimesKeepTheirNanoseconds) {
   writer.finish();
   EXPECT_EQ(text("trajectory.tum"), "1600000000.000000007 1.000000 0.500000 0 0 0 0.000000000 1.000000000\n");
   EXPECT_THAT(text("localization.csv"), StartsWith(std::string(kLocalizationHeader) + "1600000000000000007,1.000000,"));
-  EXPECT_THAT(text("tracks.csv"), EndsWith("1600000000000000007,4,edge,0.000000000,0.000000,0.000000,1.000000,tracked,17,0.000000000\n"));
+  EXPECT_THAT(text("tracks.csv"),
+              EndsWith("1600000000000000007,4,edge,0.000000000,0.000000,0.000000,1.000000,tracked,17,0.000000000\n"));
   EXPECT_THAT(text("primitives.csv"), HasSubstr("\n1600000000000000007,0,other,0.250000000,nan,nan,nan,"));
   EXPECT_THAT(text("primitives.csv"), EndsWith(",0.000000,5\n"));
   EXPECT_THAT(text("radial_lines.csv"), EndsWith("\n1600000000000000007,0.500000000,0.001000000,20.000,-1\n"));
@@ -89,8 +90,9 @@ TEST_F(Results, HypothesesAppearWhereThereIsMoreThanOne) {
   writer.add({}, l, {});
   writer.add_config("");
   writer.finish();
-  EXPECT_EQ(text("hypotheses.csv"), "#timestamp [ns],x,y,theta,bel,pl\n5,1.000000,2.000000,3.000000000,0.500000,0.750000\n"
-                                    "5,4.000000,5.000000,6.000000000,0.250000,0.500000\n");
+  EXPECT_EQ(text("hypotheses.csv"),
+            "#timestamp [ns],x,y,theta,bel,pl\n5,1.000000,2.000000,3.000000000,0.500000,0.750000\n"
+            "5,4.000000,5.000000,6.000000000,0.250000,0.500000\n");
 }
 
 TEST_F(Results, NothingIsFoundBeforeItIsWhole) {

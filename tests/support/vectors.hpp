@@ -41,9 +41,10 @@ inline std::string vectors_path() {
   return path != nullptr && *path != '\0' ? path : CREDO_SOURCE_DIR "/tests/data/vectors.json";
 }
 
-/// Where `actual` differs from `expected` by more than 1e-11 + 1e-9 |expected|; empty where it does not. A number that one of
-/// two objects does not name is 0.
-inline std::string difference(const nlohmann::json& expected, const nlohmann::json& actual, const std::string& at = "out") {
+/// Where `actual` differs from `expected` by more than 1e-11 + 1e-9 |expected|; empty where it does not. A number that
+/// one of two objects does not name is 0.
+inline std::string difference(const nlohmann::json& expected, const nlohmann::json& actual,
+                              const std::string& at = "out") {
   if (expected.is_object() && actual.is_object()) {
     static const nlohmann::json zero = 0.0;
     std::set<std::string> keys;
@@ -86,8 +87,8 @@ inline std::optional<std::string> run_case(const nlohmann::json& test, const Ope
   }
 }
 
-/// Runs every case of the file whose operation is among `operations` and prints cases run, failed and not covered for each
-/// operation of the file.
+/// Runs every case of the file whose operation is among `operations` and prints cases run, failed and not covered for
+/// each operation of the file.
 /// \throws std::runtime_error if the file cannot be read.
 inline std::map<std::string, Tally> run_vectors(const std::string& path, const Operations& operations) {
   std::ifstream file(path);

@@ -13,8 +13,8 @@
 namespace credo::tracking {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::Each;
+using ::testing::ElementsAre;
 
 // Largest sum over all assignments, by enumeration.
 double best_by_enumeration(int row, int rows, const std::vector<Candidate>& candidates, std::vector<char>& used) {
@@ -61,7 +61,8 @@ TEST(Assignment, GivesEveryRowItsBestColumnWhereNothingCollides) {
 
 TEST(Assignment, GivesAContestedColumnToTheHeavierRow) {
   Assigner assigner;
-  EXPECT_THAT(assigner.assign(3, 1, std::vector<Candidate>{{0, 0, 1.0}, {1, 0, 2.0}, {2, 0, 1.5}}), ElementsAre(-1, 0, -1));
+  EXPECT_THAT(assigner.assign(3, 1, std::vector<Candidate>{{0, 0, 1.0}, {1, 0, 2.0}, {2, 0, 1.5}}),
+              ElementsAre(-1, 0, -1));
 }
 
 TEST(Assignment, GivesAContestedColumnToTheFirstOfEqualRows) {
@@ -77,7 +78,8 @@ TEST(Assignment, MakesARowYieldWhereTheSumGrows) {
 
 TEST(Assignment, LeavesARowAloneRatherThanTakingALightPair) {
   Assigner assigner;
-  EXPECT_THAT(assigner.assign(2, 2, std::vector<Candidate>{{0, 0, 2.0}, {1, 0, 1.0}, {1, 1, -0.5}}), ElementsAre(0, -1));
+  EXPECT_THAT(assigner.assign(2, 2, std::vector<Candidate>{{0, 0, 2.0}, {1, 0, 1.0}, {1, 1, -0.5}}),
+              ElementsAre(0, -1));
 }
 
 TEST(Assignment, OfNothingIsNothing) {
@@ -95,8 +97,10 @@ TEST(Assignment, ForgetsTheProblemBefore) {
 
 RC_GTEST_PROP(Assignment, IsTheBestOfAll, (unsigned seed)) {
   std::mt19937 random(seed);
-  const int rows = std::uniform_int_distribution<int>(1, 6)(random), columns = std::uniform_int_distribution<int>(1, 6)(random);
-  const auto candidates = random_problem(random, rows, columns, std::uniform_real_distribution<double>(0.2, 1.0)(random));
+  const int rows = std::uniform_int_distribution<int>(1, 6)(random),
+            columns = std::uniform_int_distribution<int>(1, 6)(random);
+  const auto candidates =
+      random_problem(random, rows, columns, std::uniform_real_distribution<double>(0.2, 1.0)(random));
   Assigner assigner;
   const std::vector<int> found = assigner.assign(rows, columns, candidates);
   std::vector<char> used(columns, 0);

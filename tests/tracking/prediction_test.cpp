@@ -19,7 +19,9 @@ using geometry::PoseEstimate;
 
 constexpr double kPi = 3.14159265358979323846;
 
-double uniform(std::mt19937& random, double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
+double uniform(std::mt19937& random, double from, double to) {
+  return std::uniform_real_distribution<double>(from, to)(random);
+}
 
 Eigen::Matrix3d random_covariance(std::mt19937& random) {
   Eigen::Matrix3d root;
@@ -29,7 +31,8 @@ Eigen::Matrix3d random_covariance(std::mt19937& random) {
 
 // J P J^T of `map` at `x` by central differences, differences taken by `minus`.
 template <int N, typename Map, typename Minus>
-Eigen::Matrix2d carried_numerically(const Eigen::Matrix<double, N, 1>& x, const Eigen::Matrix<double, N, N>& P, Map map, Minus minus) {
+Eigen::Matrix2d carried_numerically(const Eigen::Matrix<double, N, 1>& x, const Eigen::Matrix<double, N, N>& P, Map map,
+                                    Minus minus) {
   Eigen::Matrix<double, 2, N> J;
   for (int i = 0; i < N; ++i) {
     const double h = 1e-6;
@@ -49,7 +52,8 @@ Eigen::Vector2d angle_first(const Eigen::Vector2d& a, const Eigen::Vector2d& b) 
 RC_GTEST_PROP(PolarPoint, IsCarriedLikeThePointThatItIs, (unsigned seed)) {
   std::mt19937 random(seed);
   const Eigen::Vector2d p(uniform(random, 1.0, 5.0), uniform(random, -3.0, 3.0));
-  const PoseEstimate T{{uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5), uniform(random, -3.0, 3.0)}, Eigen::Matrix3d::Zero()};
+  const PoseEstimate T{{uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5), uniform(random, -3.0, 3.0)},
+                       Eigen::Matrix3d::Zero()};
   const PolarPoint carried = carry({std::atan2(p.y(), p.x()), 1.0 / p.norm(), Eigen::Matrix2d::Zero()}, T);
   RC_ASSERT((carried.position() - T.pose.inverse() * p).norm() < 1e-12);
 }
@@ -63,10 +67,12 @@ RC_GTEST_PROP(PolarPoint, IsCarriedWithTheCovarianceOfTheFirstOrder, (unsigned s
   P.topLeftCorner<2, 2>() << 0.01, 0.002, 0.002, 0.04;
   P.bottomRightCorner<3, 3>() = random_covariance(random);
   const auto map = [](const Eigen::Matrix<double, 5, 1>& v) -> Eigen::Vector2d {
-    const PolarPoint carried = carry({v[0], v[1], Eigen::Matrix2d::Zero()}, {Pose2{v[2], v[3], v[4]}, Eigen::Matrix3d::Zero()});
+    const PolarPoint carried =
+        carry({v[0], v[1], Eigen::Matrix2d::Zero()}, {Pose2{v[2], v[3], v[4]}, Eigen::Matrix3d::Zero()});
     return {carried.azimuth, carried.inverse_range};
   };
-  const PolarPoint carried = carry({x[0], x[1], P.topLeftCorner<2, 2>()}, {Pose2{x[2], x[3], x[4]}, P.bottomRightCorner<3, 3>()});
+  const PolarPoint carried =
+      carry({x[0], x[1], P.topLeftCorner<2, 2>()}, {Pose2{x[2], x[3], x[4]}, P.bottomRightCorner<3, 3>()});
   const Eigen::Matrix2d expected = carried_numerically<5>(x, P, map, angle_first);
   RC_ASSERT((carried.covariance - expected).norm() < 1e-6 * (1.0 + expected.norm()));
 }
@@ -79,7 +85,8 @@ TEST(PolarPoint, AtInfinityOnlyTurns) {
 }
 
 TEST(PolarPoint, UnderTheRobotIsInAnyDirection) {
-  const PolarPoint carried = carry({0.0, 0.5, Eigen::Matrix2d::Zero()}, {Pose2{2.0, 0.0, 0.0}, Eigen::Matrix3d::Zero()});
+  const PolarPoint carried =
+      carry({0.0, 0.5, Eigen::Matrix2d::Zero()}, {Pose2{2.0, 0.0, 0.0}, Eigen::Matrix3d::Zero()});
   EXPECT_NEAR(carried.sigma_azimuth(), kPi, 1e-12);
   EXPECT_TRUE(std::isfinite(carried.inverse_range));
 }
@@ -119,7 +126,8 @@ TEST(PolarPoint, DistanceIsThatOfTheAzimuthWhereTheRangeSaysNothing) {
 
 RC_GTEST_PROP(WallLine, IsCarriedLikeItsEnds, (unsigned seed)) {
   std::mt19937 random(seed);
-  const geometry::Segment extent{{uniform(random, -3, 3), uniform(random, 1, 3)}, {uniform(random, -3, 3), uniform(random, -3, 0)}};
+  const geometry::Segment extent{{uniform(random, -3, 3), uniform(random, 1, 3)},
+                                 {uniform(random, -3, 3), uniform(random, -3, 0)}};
   const Pose2 T{uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -3, 3)};
   const WallLine carried = carry(wall_line(line_through(extent), extent), {T, Eigen::Matrix3d::Zero()});
   const geometry::Segment there = T.inverse() * extent;
@@ -159,12 +167,14 @@ TEST(WallLine, FarFromTheOriginIsAsCertainAsItsLine) {
   const WallLine wall = wall_line(line_through(extent), extent);
   EXPECT_GT(std::sqrt(wall.covariance(1, 1)), 0.05);
   const double at = 11.0;
-  EXPECT_NEAR(wall.covariance(1, 1) + 2.0 * at * wall.covariance(0, 1) + at * at * wall.covariance(0, 0), 0.005 * 0.005, 1e-12);
+  EXPECT_NEAR(wall.covariance(1, 1) + 2.0 * at * wall.covariance(0, 1) + at * at * wall.covariance(0, 0), 0.005 * 0.005,
+              1e-12);
 }
 
 TEST(WallLine, IsTheSameWhicheverWayItIsSeen) {
   const WallLine there = wall_line(line_through({{3.0, 1.0}, {-1.0, 1.2}}), {{3.0, 1.0}, {-1.0, 1.2}});
-  const WallLine back = aligned_with(wall_line(line_through({{-1.0, 1.2}, {3.0, 1.0}}), {{-1.0, 1.2}, {3.0, 1.0}}), there);
+  const WallLine back =
+      aligned_with(wall_line(line_through({{-1.0, 1.2}, {3.0, 1.0}}), {{-1.0, 1.2}, {3.0, 1.0}}), there);
   const WallDifference apart = difference(back, there);
   EXPECT_NEAR(apart.angle, 0.0, 1e-12);
   EXPECT_NEAR(apart.across, 0.0, 1e-12);
@@ -185,8 +195,12 @@ TEST(WallLine, DistanceAcrossIsTakenWhereBothWereSeen) {
 
 TEST(WallLine, GapCountsAndOverlapDoesNot) {
   const WallFloors floors;
-  const auto at = [](double from, double to) { return wall_line(line_through({{from, 2.0}, {to, 2.0}}), {{from, 2.0}, {to, 2.0}}); };
-  const auto sigmas = [&](const WallLine& a, const WallLine& b) { return distance_in_sigmas(a, b, difference(a, b), floors); };
+  const auto at = [](double from, double to) {
+    return wall_line(line_through({{from, 2.0}, {to, 2.0}}), {{from, 2.0}, {to, 2.0}});
+  };
+  const auto sigmas = [&](const WallLine& a, const WallLine& b) {
+    return distance_in_sigmas(a, b, difference(a, b), floors);
+  };
   EXPECT_NEAR(sigmas(at(0.0, 1.0), at(0.5, 5.0)), 0.0, 1e-9);
   EXPECT_NEAR(sigmas(at(0.0, 1.0), at(1.3, 5.0)), 0.3 / floors.gap_m, 1e-9);
 }

@@ -39,8 +39,7 @@ TEST(Transition, EdgeToWallToEdgeIsOneTrack) {
     for (int t = 28; t <= 40; ++t) {
       const bool faces = t <= 32 || t >= 37;
       const Scene seen = faces ? both_faces(robot) : one_face(robot);
-      const auto& matches =
-          follow(tracker, seen, with_odometry && t > 28 ? std::optional(step) : std::nullopt);
+      const auto& matches = follow(tracker, seen, with_odometry && t > 28 ? std::optional(step) : std::nullopt);
       ASSERT_EQ(tracker.tracks().size(), 1u) << "at " << t;
       EXPECT_EQ(tracker.tracks()[0].id, 0);
       EXPECT_EQ(tracker.tracks()[0].type, faces ? PrimitiveType::kEdge : PrimitiveType::kWall);
@@ -97,7 +96,8 @@ TEST(Transition, DoesNotTurnAWallIntoSomebodyElsesCorner) {
   Tracker tracker;
   follow(tracker, scene({wall(kFaceX)}), motion(0.0, 0.0, 0.0));
   Scene other = scene({point(PrimitiveType::kEdge, kBlock)});
-  other.segments = {face({kBlock + Eigen::Vector2d(1.0, 1.0), kBlock}), face({kBlock, kBlock + Eigen::Vector2d(-1.0, 1.0)})};
+  other.segments = {face({kBlock + Eigen::Vector2d(1.0, 1.0), kBlock}),
+                    face({kBlock, kBlock + Eigen::Vector2d(-1.0, 1.0)})};
   other.primitives[0].first_segment = 0;
   other.primitives[0].last_segment = 1;
   EXPECT_THAT(follow(tracker, other, motion(0.0, 0.0, 0.0)), IsEmpty());
