@@ -39,7 +39,7 @@ void add_score(CLI::App& evaluate) {
     const Truth truth = read_truth(o->reference);
     const auto rows = read_rows(o->result);
     std::optional<std::vector<evaluation::Interval>> degraded;
-    if (truth.events) degraded = degraded_intervals(*truth.events);
+    if (truth.events) degraded = evaluation::degraded_intervals(*truth.events);
     const auto score = evaluation::score(rows, truth.poses, degraded);
     if (o->format.json())
       print(to_json(score));

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <iterator>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -88,27 +87,8 @@ std::optional<evaluation::LocalizationScore> score_of(const Outcome& outcome, co
   }
   if (!truth) return {};
   std::optional<std::vector<evaluation::Interval>> degraded;
-  if (dataset.events_recorded) degraded = degraded_intervals(dataset.events);
+  if (dataset.events_recorded) degraded = evaluation::degraded_intervals(dataset.events);
   return evaluation::score(rows, dataset.truth, degraded);
-}
-
-std::vector<evaluation::Interval> degraded_intervals(const std::vector<datasets::Event>& events) {
-  constexpr sensors::Timestamp kNever = std::numeric_limits<sensors::Timestamp>::max();
-  std::vector<evaluation::Interval> intervals;
-  std::map<std::string, std::size_t> open;  // by the sensor's name
-  for (const datasets::Event& event : events) {
-    const std::size_t cut = event.name.rfind('_');
-    if (cut == std::string::npos) continue;
-    const std::string sensor = event.name.substr(0, cut), what = event.name.substr(cut + 1);
-    if (what == "degraded" || what == "failed") {
-      open[sensor] = intervals.size();
-      intervals.emplace_back(event.time, kNever);
-    } else if (what == "restored" && open.contains(sensor)) {
-      intervals[open[sensor]].second = event.time;
-      open.erase(sensor);
-    }
-  }
-  return intervals;
 }
 
 std::string to_text(const Outcome& outcome, const datasets::Dataset& dataset) {

@@ -16,9 +16,6 @@ namespace credo::apps {
 [[nodiscard]] std::optional<evaluation::LocalizationScore> score_of(const Outcome& outcome,
                                                                     const datasets::Dataset& dataset);
 
-/// From events: a sensor is degraded from "..._degraded" or "..._failed" to the next "..._restored" of the same sensor.
-[[nodiscard]] std::vector<evaluation::Interval> degraded_intervals(const std::vector<datasets::Event>& events);
-
 [[nodiscard]] std::string to_text(const Outcome& outcome, const datasets::Dataset& dataset);
 [[nodiscard]] nlohmann::ordered_json to_json(const Outcome& outcome, const datasets::Dataset& dataset);
 [[nodiscard]] nlohmann::ordered_json to_json(const evaluation::LocalizationScore& score);

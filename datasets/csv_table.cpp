@@ -87,7 +87,7 @@ sensors::Timestamp CsvTable::time() {
   const std::string_view text = field();
   sensors::Timestamp time = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
-  if (error != std::errc{} || end != text.data() + text.size() || std::abs(time) > sensors::kLatestTime)
+  if (error != std::errc{} || end != text.data() + text.size() || !sensors::is_usable(time))
     fail(column() + ": expected a time in whole nanoseconds, found " + in_quotes(text) +
          (text.find_first_of(".eE") != std::string_view::npos ? " (seconds? multiply them by 1e9)" : ""));
   if (has_time_ && time < last_time_)

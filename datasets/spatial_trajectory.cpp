@@ -79,7 +79,7 @@ Timestamp nanoseconds(const fs::path& file, const Row& row) {
   const std::string_view text = row.fields.front();
   Timestamp time = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
-  if (error != std::errc{} || end != text.data() + text.size() || std::abs(time) > sensors::kLatestTime)
+  if (error != std::errc{} || end != text.data() + text.size() || !sensors::is_usable(time))
     throw FormatError(file, row.line, "expected a time in whole nanoseconds, found " + in_quotes(text));
   return time;
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 
@@ -143,6 +145,26 @@ std::optional<geometry::Pose2> truth_at(std::span<const datasets::TimedPose> tru
   if (nearest == nullptr || std::abs(sensors::seconds_between(nearest->time, time)) > params.truth_max_diff_s)
     return {};
   return nearest->pose;
+}
+
+std::vector<Interval> degraded_intervals(const std::vector<datasets::Event>& events) {
+  constexpr sensors::Timestamp kNever = std::numeric_limits<sensors::Timestamp>::max();
+  std::vector<Interval> intervals;
+  std::map<std::string, std::size_t> open;  // by the sensor's name
+  for (const datasets::Event& event : events) {
+    const std::size_t cut = event.name.rfind('_');
+    if (cut == std::string::npos) continue;
+    const std::string sensor = event.name.substr(0, cut), what = event.name.substr(cut + 1);
+    if (what == "degraded" || what == "failed") {
+      if (open.contains(sensor)) continue;  // it gets worse
+      open[sensor] = intervals.size();
+      intervals.emplace_back(event.time, kNever);
+    } else if (what == "restored" && open.contains(sensor)) {
+      intervals[open[sensor]].second = event.time;
+      open.erase(sensor);
+    }
+  }
+  return intervals;
 }
 
 LocalizationScore score(std::span<const LocalizationRow> rows, std::span<const datasets::TimedPose> truth,

@@ -61,6 +61,10 @@ struct LocalizationScore {
 [[nodiscard]] std::optional<geometry::Pose2> truth_at(std::span<const datasets::TimedPose> truth,
                                                       sensors::Timestamp time, const ScoreParams& params = {});
 
+/// A sensor is degraded from "..._degraded" or "..._failed" to the next "..._restored" of the same sensor, or for ever.
+/// \param events  by time
+[[nodiscard]] std::vector<Interval> degraded_intervals(const std::vector<datasets::Event>& events);
+
 /// \param degraded  when sensors were degraded, all such times; nothing where nobody recorded them
 /// \throws std::runtime_error if no row has a truth
 [[nodiscard]] LocalizationScore score(std::span<const results::LocalizationRow> rows,

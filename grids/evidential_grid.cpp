@@ -114,6 +114,7 @@ const Tile* EvidentialGrid::find_tile(TileIndex index) const {
 
 void EvidentialGrid::merge(const EvidentialGrid& other) {
   require_same(georeference_, other.georeference_);
+  for (const auto& entry : other.tiles_) static_cast<void>(tile(entry.first));  // all the room before the first change
   for (const auto& [index, from] : other.tiles_) {
     Tile& to = tile(index);
     add_channel(to.empty, from.empty);

@@ -55,17 +55,18 @@ void judge(Localization& localization, bool camera_seen, bool range_finder_seen,
     because("few landmarks");
   if (belief.no > belief.yes) because("most of what is seen is not in the plan");
   if (localization.unrecognised) because("landmarks that should be in sight are not seen");
-  // Written so that a covariance that is not a number fails.
+  // Written so that what is not a number fails.
   const bool position_known = sigma <= params.max_position_sigma_m;
   const bool heading_known = std::sqrt(P(2, 2)) <= params.max_heading_sigma_rad;
   if (!position_known) because("position too uncertain");
   if (!heading_known) because("heading too uncertain");
-  if (localization.innovation > params.max_innovation) because("the pose contradicts its prediction");
+  const bool predicted = localization.innovation <= params.max_innovation;
+  if (!predicted) because("the pose contradicts its prediction");
 
   if (belief.no > belief.yes) {
     localization.status = Status::kLost;
-  } else if (localization.matched == 0 || belief.yes <= params.min_belief_yes || !position_known || !heading_known ||
-             localization.innovation > params.max_innovation) {
+  } else if (localization.matched == 0 || localization.unrecognised || !(belief.yes > params.min_belief_yes) ||
+             !position_known || !heading_known || !predicted) {
     localization.status = Status::kUncertain;
     if (localization.reason.empty()) because("belief is weak");
   } else {

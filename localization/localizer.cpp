@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
+#include <string>
 
 #include "localization/pose_history.hpp"
 
@@ -40,6 +42,35 @@ SplitPose moved(const SplitPose& from, const PoseEstimate& motion) {
 MapMatchingParams initial_matching(MapMatchingParams params) {
   params.method = perception::Method::kDefault;
   return params;
+}
+
+/// \throws std::invalid_argument for parameters out of their range
+void check(const LocalizerParams& params) {
+  const auto require = [](bool good, const char* what) {
+    if (!good) throw std::invalid_argument(std::string("localizer: ") + what);
+  };
+  const MapMatchingParams& m = params.matching;
+  evidence::check(m.wall_angle, "localizer: matching.wall_angle");
+  evidence::check(m.wall_across, "localizer: matching.wall_across");
+  evidence::check(m.wall_excess, "localizer: matching.wall_excess");
+  evidence::check(m.point_range, "localizer: matching.point_range");
+  evidence::check(m.point_azimuth, "localizer: matching.point_azimuth");
+  evidence::check(m.paper_wall_angle_deg, "localizer: matching.paper_wall_angle_deg");
+  evidence::check(m.paper_wall_length_m, "localizer: matching.paper_wall_length_m");
+  evidence::check(m.paper_wall_center_m, "localizer: matching.paper_wall_center_m");
+  evidence::check(m.paper_point_range_m, "localizer: matching.paper_point_range_m");
+  evidence::check(m.paper_point_azimuth_deg, "localizer: matching.paper_point_azimuth_deg");
+  evidence::check(params.belief.count, "localizer: belief.count");
+  evidence::check(params.belief.ratio, "localizer: belief.ratio");
+  evidence::check(params.belief.recognised, "localizer: belief.recognised");
+  require(params.matching_rounds >= 1, "matching_rounds has to be at least 1");
+  require(params.solver.robust_scale > 0.0, "solver.robust_scale has to be positive");
+  require(params.solver.reweightings >= 1, "solver.reweightings has to be at least 1");
+  require(params.solver.outlier_probability > 0.0 && params.solver.outlier_probability < 1.0,
+          "solver.outlier_probability has to be in (0, 1)");
+  for (const double reliability : {params.belief.wall_reliability, params.belief.other_reliability,
+                                   params.contradiction_reliability, params.blind_reliability})
+    require(reliability >= 0.0 && reliability <= 1.0, "a reliability has to be in [0, 1]");
 }
 
 }  // namespace
@@ -88,6 +119,7 @@ struct Localizer::State {
   std::vector<Observation> observations;
   std::vector<bool> wall_in_use;
   std::vector<int> unmatched;
+  std::vector<bool> used;  ///< by primitive
   std::vector<LandmarkId> taken;
   std::vector<MapMatch> new_matches;
 
@@ -153,9 +185,7 @@ void Localizer::State::expect_landmarks(const SplitPose& predicted) {
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     if (tracks[t].landmark == kNoLandmark || map.is_wall(tracks[t].landmark)) continue;
     const Vector2d p = T_base_map * map.point(tracks[t].landmark).position;
-    Eigen::Matrix<double, 2, 3> by_pose;
-    by_pose.leftCols<2>() = -predicted.pose.rotation().transpose();
-    by_pose.col(2) = Vector2d(p.y(), -p.x());
+    const Eigen::Matrix<double, 2, 3> by_pose = base_coordinates_by_pose(predicted.pose, p);
     const double plan = map.uncertainty_m() * map.uncertainty_m();
     tracker.expect_point(static_cast<int>(t), p,
                          by_pose * P * by_pose.transpose() + plan * Eigen::Matrix2d::Identity());
@@ -226,7 +256,7 @@ void Localizer::State::observe_tracks(const Scene& scene, const std::vector<Matc
 void Localizer::State::list_unmatched(const Scene& scene) {
   unmatched.clear();
   taken.clear();
-  std::vector<bool> used(scene.primitives.size(), false);
+  used.assign(scene.primitives.size(), false);
   for (const Observation& o : observations) {
     used[static_cast<std::size_t>(o.primitive)] = true;
     if (!map.is_wall(o.landmark)) taken.push_back(o.landmark);
@@ -386,7 +416,7 @@ void Localizer::State::remember(const Localization& fix) {
 
 Localizer::Localizer(const geometry::FloorPlan& plan, const sensors::Rig& rig,
                      const std::optional<PoseEstimate>& initial, const LocalizerParams& params)
-    : state_(std::make_unique<State>(plan, rig, initial, params)) {}
+    : state_((check(params), std::make_unique<State>(plan, rig, initial, params))) {}
 Localizer::~Localizer() = default;
 Localizer::Localizer(Localizer&&) noexcept = default;
 Localizer& Localizer::operator=(Localizer&&) noexcept = default;

@@ -45,6 +45,7 @@ class Localizer {
  public:
   /// \param plan     empty: there is no plan, and poses are relative to the start with status initializing
   /// \param initial  the manual initial matching; absent: likewise relative to the start
+  /// \throws std::invalid_argument for parameters out of their range
   Localizer(const geometry::FloorPlan& plan, const sensors::Rig& rig,
             const std::optional<geometry::PoseEstimate>& initial, const LocalizerParams& params = {});
   ~Localizer();

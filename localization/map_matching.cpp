@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "evidence/gated_match.hpp"
+#include "localization/observations.hpp"
 
 namespace credo::localization {
 namespace {
@@ -30,14 +31,6 @@ BinaryMass accepted(std::span<const BinaryMass> criteria) {
   const evidence::GatedMatch fused = evidence::gated_match(criteria);
   if (!fused.match) return kDenied;
   return {fused.mass.yes, fused.mass.no, fused.mass.unknown + fused.mass.conflict};
-}
-
-/// Derivative of a map point's base coordinates by the pose (x, y, theta).
-Eigen::Matrix<double, 2, 3> base_coordinates_by_pose(const geometry::Pose2& pose, const Vector2d& in_base) {
-  Eigen::Matrix<double, 2, 3> J;
-  J.leftCols<2>() = -pose.rotation().transpose();
-  J.col(2) = Vector2d(in_base.y(), -in_base.x());
-  return J;
 }
 
 /// How far [low, high] reaches beyond [0, length]. [m]

@@ -67,22 +67,22 @@ struct MapMatchingParams {
                                            .no_full_from = 2.0};
   evidence::RampBelief paper_wall_center_m{.max_yes = 0.8,
                                            .yes_full_until = 0.0,
-                                           .yes_zero_from = 0.3,
-                                           .max_no = 0.9,
-                                           .no_zero_until = 0.3,
-                                           .no_full_from = 0.8};
+                                           .yes_zero_from = 0.5,
+                                           .max_no = 0.8,
+                                           .no_zero_until = 0.5,
+                                           .no_full_from = 1.5};
   evidence::RampBelief paper_point_range_m{.max_yes = 0.8,
                                            .yes_full_until = 0.0,
                                            .yes_zero_from = 0.3,
-                                           .max_no = 0.9,
+                                           .max_no = 0.8,
                                            .no_zero_until = 0.3,
-                                           .no_full_from = 0.6};
+                                           .no_full_from = 0.8};
   evidence::RampBelief paper_point_azimuth_deg{.max_yes = 0.8,
                                                .yes_full_until = 0.0,
-                                               .yes_zero_from = 4.0,
-                                               .max_no = 0.9,
-                                               .no_zero_until = 4.0,
-                                               .no_full_from = 8.0};
+                                               .yes_zero_from = 5.0,
+                                               .max_no = 0.8,
+                                               .no_zero_until = 5.0,
+                                               .no_full_from = 12.0};
 };
 
 /// A primitive that is believed to be a landmark.

@@ -88,4 +88,11 @@ Observation observe_again(const Primitive& now, const Primitive& earlier, const 
   return o;
 }
 
+Eigen::Matrix<double, 2, 3> base_coordinates_by_pose(const geometry::Pose2& pose, const Vector2d& in_base) {
+  Eigen::Matrix<double, 2, 3> J;
+  J.leftCols<2>() = -pose.rotation().transpose();
+  J.col(2) = Vector2d(in_base.y(), -in_base.x());
+  return J;
+}
+
 }  // namespace credo::localization

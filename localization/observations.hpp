@@ -33,4 +33,9 @@ struct ObservationParams {
 [[nodiscard]] Observation observe_again(const perception::Primitive& now, const perception::Primitive& earlier,
                                         const ObservationParams& params = {});
 
+/// Derivative by the pose (x, y, theta) of where a fixed point of the map lies in the base frame.
+/// \param in_base  the point in the base frame [m]
+[[nodiscard]] Eigen::Matrix<double, 2, 3> base_coordinates_by_pose(const geometry::Pose2& pose,
+                                                                   const Eigen::Vector2d& in_base);
+
 }  // namespace credo::localization

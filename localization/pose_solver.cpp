@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace credo::localization {
 namespace {
@@ -19,20 +20,19 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using geometry::Pose2;
-using State = PoseState;
 using Matrix32d = Eigen::Matrix<double, 3, 2>;
 
 /// Three of the state's unknowns each, independent beforehand: the pose, the scan's common errors, the camera's.
 constexpr int kBlocks = 3;
 using BlockMatrices = std::array<Matrix3d, kBlocks>;
 
-Pose2 pose_of(const State::Vector& x) { return {x(State::kX), x(State::kY), x(State::kTheta)}; }
+Pose2 pose_of(const PoseState::Vector& x) { return {x(PoseState::kX), x(PoseState::kY), x(PoseState::kTheta)}; }
 Vector3d vector_of(const Pose2& p) { return {p.x, p.y, p.theta}; }
 Vector2d turned(const Vector2d& v) { return {-v.y(), v.x()}; }
 
 /// A state's pose as a transform, its sine and cosine taken once for all observations.
 struct Frame {
-  explicit Frame(const State::Vector& x) : R(pose_of(x).rotation()), t(x.head<2>()) {}
+  explicit Frame(const PoseState::Vector& x) : R(pose_of(x).rotation()), t(x.head<2>()) {}
   Vector2d operator*(const Vector2d& point) const { return R * point + t; }
 
   Matrix2d R;
@@ -48,15 +48,16 @@ Vector2d fixed_direction(const Observation& o) {
 /// The residual as localization::evaluate has it.
 /// \param fixed  fixed_direction(o)
 /// \param frame  Frame(x)
-void evaluate(const Observation& o, const Vector2d& fixed, const Frame& frame, const State::Vector& x,
-              Vector2d& residual, State::Jacobian* jacobian) {
+void evaluate(const Observation& o, const Vector2d& fixed, const Frame& frame, const PoseState::Vector& x,
+              Vector2d& residual, PoseState::Jacobian* jacobian) {
   if (jacobian) jacobian->setZero();
   if (o.kind == ObservationKind::kBearing) {
     const Vector2d from = frame * o.base_point;
     const Vector2d way = o.map_point - from;
     const double c = fixed.x(), s = fixed.y();
-    const double observed = o.base_angle + x(State::kCameraTheta) + x(State::kCameraCos) * c + x(State::kCameraSin) * s;
-    residual = {geometry::wrap_angle(std::atan2(way.y(), way.x()) - x(State::kTheta) - observed), 0.0};
+    const double observed =
+        o.base_angle + x(PoseState::kCameraTheta) + x(PoseState::kCameraCos) * c + x(PoseState::kCameraSin) * s;
+    residual = {geometry::wrap_angle(std::atan2(way.y(), way.x()) - x(PoseState::kTheta) - observed), 0.0};
     if (!jacobian) return;
     const Vector2d aside = turned(way) / std::max(way.squaredNorm(), 1e-4);
     const Vector2d by_theta = turned(from - frame.t);
@@ -64,8 +65,8 @@ void evaluate(const Observation& o, const Vector2d& fixed, const Frame& frame, c
     return;
   }
   // The scan as a whole is off by (x, y, theta), in first order.
-  const Vector2d shift = x.segment<2>(State::kRangeX);
-  const Vector2d in_base = o.base_point + shift + x(State::kRangeTheta) * turned(o.base_point);
+  const Vector2d shift = x.segment<2>(PoseState::kRangeX);
+  const Vector2d in_base = o.base_point + shift + x(PoseState::kRangeTheta) * turned(o.base_point);
   const Vector2d in_map = frame * in_base;
   const Vector2d by_theta = turned(in_map - frame.t);
   const Vector2d by_scan_theta = frame.R * turned(o.base_point);
@@ -73,20 +74,20 @@ void evaluate(const Observation& o, const Vector2d& fixed, const Frame& frame, c
     residual = in_map - o.map_point;
     if (!jacobian) return;
     jacobian->leftCols<2>().setIdentity();
-    jacobian->col(State::kTheta) = by_theta;
-    jacobian->middleCols<2>(State::kRangeX) = frame.R;
-    jacobian->col(State::kRangeTheta) = by_scan_theta;
+    jacobian->col(PoseState::kTheta) = by_theta;
+    jacobian->middleCols<2>(PoseState::kRangeX) = frame.R;
+    jacobian->col(PoseState::kRangeTheta) = by_scan_theta;
     return;
   }
   const Vector2d normal = turned(fixed);
-  const double angle = o.base_angle + x(State::kRangeTheta) + x(State::kTheta);
+  const double angle = o.base_angle + x(PoseState::kRangeTheta) + x(PoseState::kTheta);
   residual = {normal.dot(in_map - o.map_point), geometry::wrap_line_angle(angle - o.map_angle)};
   if (!jacobian) return;
   const Vector2d normal_in_base = frame.R.transpose() * normal;
   jacobian->row(0) << normal.x(), normal.y(), normal.dot(by_theta), normal_in_base.x(), normal_in_base.y(),
       normal.dot(by_scan_theta), 0.0, 0.0, 0.0;
-  (*jacobian)(1, State::kTheta) = 1.0;
-  (*jacobian)(1, State::kRangeTheta) = 1.0;
+  (*jacobian)(1, PoseState::kTheta) = 1.0;
+  (*jacobian)(1, PoseState::kRangeTheta) = 1.0;
 }
 
 /// U, upper triangular, with U^T U the inverse of a covariance, so that |U e|^2 = e^T covariance^-1 e. Cholesky's
@@ -162,7 +163,7 @@ double normalised_square(const Observation& o, const ResidualCovariance& covaria
 }
 
 /// Squared Mahalanobis distance of a state's pose from the prior.
-double step_squared(const SplitPose& prior, const State::Vector& x) {
+double step_squared(const SplitPose& prior, const PoseState::Vector& x) {
   Vector3d step = x.head<3>() - vector_of(prior.pose);
   step(2) = geometry::wrap_angle(step(2));
   return step.dot(prior.covariance().inverse() * step);
@@ -171,34 +172,34 @@ double step_squared(const SplitPose& prior, const State::Vector& x) {
 /// Whitened residuals of the prior on the state (9 rows) and of all observations (2 rows each), for ceres::TinySolver.
 struct WhitenedResiduals {
   using Scalar = double;
-  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = State::kSize };
+  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = PoseState::kSize };
 
-  State::Vector prior = State::Vector::Zero();
+  PoseState::Vector prior = PoseState::Vector::Zero();
   BlockMatrices prior_whiteners;
   const std::vector<Observation>* observations = nullptr;
   std::vector<Vector2d> directions;  ///< fixed_direction of each
   std::vector<Matrix2d> whiteners;   ///< square root of the robust weight included
 
-  [[nodiscard]] int NumResiduals() const { return State::kSize + 2 * static_cast<int>(observations->size()); }
+  [[nodiscard]] int NumResiduals() const { return PoseState::kSize + 2 * static_cast<int>(observations->size()); }
 
   bool operator()(const double* parameters, double* residuals, double* jacobian) const {
-    const State::Vector x = Eigen::Map<const State::Vector>(parameters);
+    const PoseState::Vector x = Eigen::Map<const PoseState::Vector>(parameters);
     Eigen::Map<Eigen::VectorXd> e(residuals, NumResiduals());
-    State::Vector step = x - prior;
-    step(State::kTheta) = geometry::wrap_angle(step(State::kTheta));
+    PoseState::Vector step = x - prior;
+    step(PoseState::kTheta) = geometry::wrap_angle(step(PoseState::kTheta));
     for (int b = 0; b < kBlocks; ++b) e.segment<3>(3 * b) = prior_whiteners[b] * step.segment<3>(3 * b);
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, State::kSize>> J(jacobian, jacobian ? NumResiduals() : 0,
-                                                                      State::kSize);
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, PoseState::kSize>> J(jacobian, jacobian ? NumResiduals() : 0,
+                                                                          PoseState::kSize);
     if (jacobian) {
-      J.topRows<State::kSize>().setZero();
+      J.topRows<PoseState::kSize>().setZero();
       for (int b = 0; b < kBlocks; ++b) J.block<3, 3>(3 * b, 3 * b) = prior_whiteners[b];
     }
     const Frame frame(x);
     for (std::size_t k = 0; k < observations->size(); ++k) {
       Vector2d raw;
-      State::Jacobian by_state;
+      PoseState::Jacobian by_state;
       evaluate((*observations)[k], directions[k], frame, x, raw, jacobian ? &by_state : nullptr);
-      const auto row = static_cast<Eigen::Index>(State::kSize + 2 * k);
+      const auto row = static_cast<Eigen::Index>(PoseState::kSize + 2 * k);
       e.segment<2>(row) = whiteners[k] * raw;
       if (jacobian) J.middleRows<2>(row) = whiteners[k] * by_state;
     }
@@ -208,7 +209,7 @@ struct WhitenedResiduals {
 
 /// An observation linearised at the solution.
 struct Linearised {
-  State::Jacobian by_state;
+  PoseState::Jacobian by_state;
   ResidualCovariance covariance;
   double weight = 1.0;  ///< of the robust loss
 };
@@ -229,12 +230,12 @@ BlockMatrices intersected(const Prior& prior, double omega) {
           camera.noise + camera.repeated / (1.0 - omega)};
 }
 
-State::Matrix information(const Prior& prior, const std::vector<Linearised>& linearised, double omega) {
-  State::Matrix sum = State::Matrix::Zero();
+PoseState::Matrix information(const Prior& prior, const std::vector<Linearised>& linearised, double omega) {
+  PoseState::Matrix sum = PoseState::Matrix::Zero();
   const BlockMatrices blocks = intersected(prior, omega);
   for (int b = 0; b < kBlocks; ++b) sum.block<3, 3>(3 * b, 3 * b) = blocks[b].inverse();
   for (const Linearised& l : linearised) {
-    const State::Jacobian weighted = intersected(l, omega).inverse() * l.by_state;
+    const PoseState::Jacobian weighted = intersected(l, omega).inverse() * l.by_state;
     sum.noalias() += l.by_state.transpose() * weighted;
   }
   return sum;
@@ -243,12 +244,12 @@ State::Matrix information(const Prior& prior, const std::vector<Linearised>& lin
 /// Covariances of the pose with each block of the state: the first three rows of the information's inverse. One
 /// decomposition and one right-hand side at a time, as TinySolver does it: Eigen's general inverse takes long to
 /// compile.
-BlockMatrices pose_covariances(const State::Matrix& information) {
-  const Eigen::LDLT<State::Matrix> decomposed(information);
+BlockMatrices pose_covariances(const PoseState::Matrix& information) {
+  const Eigen::LDLT<PoseState::Matrix> decomposed(information);
   BlockMatrices covariances;
   for (int i = 0; i < 3; ++i) {
-    const State::Vector unit = State::Vector::Unit(i);
-    const State::Vector row = decomposed.solve(unit);
+    const PoseState::Vector unit = PoseState::Vector::Unit(i);
+    const PoseState::Vector row = decomposed.solve(unit);
     for (int b = 0; b < kBlocks; ++b) covariances[b].row(i) = row.segment<3>(3 * b).transpose();
   }
   return covariances;
@@ -274,18 +275,18 @@ double chi_square_gate(int dimension, double p) {
   if (dimension == 2) return two;
   // Tail of the normal distribution: p = 2 Q(z), Q(z) ~ exp(-z^2 / 2) / (z sqrt(2 pi)); z by fixed-point iteration.
   double squared = two;
-  for (int i = 0; i < 20; ++i) squared = two - std::log(squared * 1.5707963267948966 * (1.0 + 2.0 / squared));
+  for (int i = 0; i < 20; ++i) squared = two - std::log(squared * 0.5 * std::numbers::pi * (1.0 + 2.0 / squared));
   return squared;
 }
 
 }  // namespace
 
-void evaluate(const Observation& o, const State::Vector& x, Vector2d& residual, State::Jacobian* jacobian) {
+void evaluate(const Observation& o, const PoseState::Vector& x, Vector2d& residual, PoseState::Jacobian* jacobian) {
   evaluate(o, fixed_direction(o), Frame(x), x, residual, jacobian);
 }
 
 void evaluate(const Observation& observation, const Pose2& pose, Vector2d& residual) {
-  State::Vector x = State::Vector::Zero();
+  PoseState::Vector x = PoseState::Vector::Zero();
   x.head<3>() = vector_of(pose);
   evaluate(observation, x, residual, nullptr);
 }
@@ -293,6 +294,7 @@ void evaluate(const Observation& observation, const Pose2& pose, Vector2d& resid
 struct PoseSolver::State {
   CommonErrors common;
   PoseSolverParams params;
+  std::array<double, 2> gates{};  ///< of a squared residual with 1 and with 2 dimensions
   ceres::TinySolver<WhitenedResiduals> solver;
   WhitenedResiduals residuals;
   std::vector<Linearised> linearised;
@@ -390,7 +392,7 @@ void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState
     evaluate(observations[k], x, residual, nullptr);
     const double squared = residual.dot((l.covariance.noise + l.covariance.plan).inverse() * residual);
     solution.mahalanobis_squared.push_back(squared);
-    solution.outlier.push_back(squared > chi_square_gate(observations[k].dimension(), params.outlier_probability));
+    solution.outlier.push_back(squared > gates[static_cast<std::size_t>(observations[k].dimension() - 1)]);
   }
   const Matrix3d& covariance = of_pose[0];
   solution.pose = {pose_of(x), 0.5 * (independent + independent.transpose()), Matrix3d::Zero()};
@@ -402,6 +404,8 @@ void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState
 PoseSolver::PoseSolver(const sensors::Rig& rig, const PoseSolverParams& params) : state_(std::make_unique<State>()) {
   state_->common = common_errors_of(rig);
   state_->params = params;
+  for (const int dimension : {1, 2})
+    state_->gates[static_cast<std::size_t>(dimension - 1)] = chi_square_gate(dimension, params.outlier_probability);
 }
 PoseSolver::~PoseSolver() = default;
 PoseSolver::PoseSolver(PoseSolver&&) noexcept = default;

@@ -55,8 +55,8 @@ class Mapper {
   /// \param T_map_base  at the time of the reading
   /// \param path        carries the pose to when each beam, or each transducer, was fired; empty: all at once
   /// \throws std::invalid_argument if the rig has no such sensor, the number of ranges is not that of the sensor, or
-  ///         the pose is not finite; std::out_of_range if it is too far away to be addressed. The map is unchanged
-  ///         then.
+  ///         the pose is not finite; std::out_of_range if it is too far away to be addressed: the map is unchanged
+  ///         then; std::length_error if the map may not grow as far: a part of the reading may be in it.
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::SonarSweep& sweep,
               const sensors::MotionPath& path = {});
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::RangeScan& scan,

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/principal_axes.hpp"
+
 namespace credo::mapping {
 
 PoseReliability::PoseReliability(const evidence::Believed<geometry::PoseEstimate>& T_map_base, double resolution_m,
@@ -22,10 +24,7 @@ PoseReliability::PoseReliability(const evidence::Believed<geometry::PoseEstimate
   const double pignistic = T_map_base.belief.pignistic();
   if (!(pignistic >= params.min_pignistic)) return;
   belief_ = std::min(pignistic, 1.0);
-  // The larger eigenvalue of the 2x2 covariance of the position.
-  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
-  const double position_variance =
-      mean + std::hypot(0.5 * (covariance(0, 0) - covariance(1, 1)), 0.5 * (covariance(0, 1) + covariance(1, 0)));
+  const double position_variance = geometry::principal_axes(covariance.topLeftCorner<2, 2>()).largest;
   const double half = params.half_at_sigma_cells * resolution_m;
   position_share_ = position_variance / (half * half);
   heading_share_ = covariance(2, 2) / (half * half);

@@ -26,6 +26,7 @@ class RegionFiller {
   void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int region_class);
 
   /// Adds increments[class] to every cell inside, then forgets the contours.
+  /// \throws std::length_error if the grid may not grow as far; a part of the cells may have been filled.
   void fill(grids::EvidentialGrid& grid, std::span<const evidence::FixedLogCommonality> increments);
 
  private:

@@ -200,6 +200,7 @@ void ScanPainter::outline() {
 
 /// Sectors of one class that touch make one contour.
 void ScanPainter::add_contours() {
+  filler_.clear();
   const auto run = [this](const Eigen::Vector2d& a, const Eigen::Vector2d& b, int c) { filler_.add_edge(a, b, c); };
   const Beam* before = nullptr;     // the beam before, where its free part is to be continued or closed
   const Beam* run_begin = nullptr;  // the first beam of its contour

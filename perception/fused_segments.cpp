@@ -72,7 +72,7 @@ class Fuser {
     piece.source_b = piece.radial_line_b >= 0 ? EndpointSource::kBoth : EndpointSource::kRangeFinder;
     piece.end_b = whole.end_b;
     add_piece(whole, piece);
-    if (scene_.segments.size() == before) add_pieces(whole, ends, {});
+    if (scene_.segments.size() == before && !cuts.empty()) add_pieces(whole, ends, {});
   }
 
   /// The whole of the pieces that were added last.

@@ -95,8 +95,7 @@ class RowReader {
   int count() { return static_cast<int>(within(0.0, 1e9)); }
   sensors::Timestamp time() {
     const auto value = number<sensors::Timestamp>();
-    if (std::abs(value) > sensors::kLatestTime)
-      fail("expected a time in nanoseconds, found '" + fields_[next_ - 1] + "'");
+    if (!sensors::is_usable(value)) fail("expected a time in nanoseconds, found '" + fields_[next_ - 1] + "'");
     return value;
   }
   std::string text() { return fields_[next_++]; }

@@ -220,7 +220,7 @@ void Associator::decide_among_what_is_left(int track, double min_margin) {
     return;
   }
   outcome.primitive = column_of_track_[track];
-  outcome.match_yes = decision.value;
+  outcome.match_yes = matcher_.normalised().match[static_cast<std::size_t>(decision.candidate)];
 }
 
 double Associator::best_free_weight(int track) const {

@@ -8,6 +8,7 @@
 
 #include "evidence/belief_shapes.hpp"
 #include "evidence/open_world.hpp"
+#include "geometry/angles.hpp"
 #include "tracking/assignment.hpp"
 #include "tracking/prediction.hpp"
 
@@ -38,7 +39,7 @@ struct AssociationParams {
   double reliability_of_other_type = 0.7;
   double reliability_of_other_polarity = 0.7;
   /// What even a perfect sensor and a perfect prediction leave of a point, 1-sigma.
-  double floor_azimuth_rad = 0.1 * 3.14159265358979 / 180.0;
+  double floor_azimuth_rad = geometry::to_radians(0.1);
   double floor_position_m = 0.02;
   WallFloors wall_floors;
 };
@@ -55,7 +56,7 @@ struct Outcome {
   evidence::MatchDecision kind = evidence::MatchDecision::kNone;
   /// Where matched. Where undecided only because of a rival: what the most plausible assignment gives; -1 otherwise.
   int primitive = -1;
-  double match_yes = 0.0;  ///< m_match(P_i), or its pignistic probability under the default method
+  double match_yes = 0.0;  ///< m_match(P_i)
 };
 
 /// Who is who: the closed form track by track, the assignment where tracks compete. Keeps its memory.

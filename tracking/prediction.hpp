@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 
+#include "geometry/angles.hpp"
 #include "perception/observer.hpp"
 #include "tracking/extrapolation.hpp"
 #include "tracking/polar_point.hpp"
@@ -22,8 +23,8 @@ struct PredictionParams {
   /// What is expected of a robot that reports no motion, from one acquisition to the next, 1-sigma: how far it drives
   /// (that of Clerentin et al., sec. 5), how far it turns, and by how much the turn differs from the one before.
   double expected_step_m = 0.3;
-  double expected_turn_rad = 10.0 * 3.14159265358979 / 180.0;
-  double expected_turn_change_rad = 2.0 * 3.14159265358979 / 180.0;
+  double expected_turn_rad = geometry::to_radians(10.0);
+  double expected_turn_change_rad = geometry::to_radians(2.0);
   /// A bearing without a range may belong to anything between here and infinity.
   double nearest_m = 0.5;
 };

@@ -42,7 +42,7 @@ struct Track {
 struct Match {
   int track = 0;           ///< index into Tracker::tracks()
   int primitive = 0;       ///< index into Scene::primitives
-  double match_yes = 0.0;  ///< m_match(P_i), or its pignistic probability under the default method
+  double match_yes = 0.0;  ///< m_match(P_i)
   /// A wall has become a corner, an edge or an other, or the other way round (Clerentin et al., sec. 4.4): the track is
   /// the same, what the map calls it is not. match_yes is 0: there was no matching.
   bool transition = false;

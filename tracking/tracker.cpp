@@ -142,16 +142,6 @@ void Tracker::expect_point(int track, const Eigen::Vector2d& position, const Eig
   s.show_prediction(track);
 }
 
-void Tracker::expect_wall(int track, const geometry::LineEstimate& line, const geometry::Segment& extent) {
-  State& s = *state_;
-  assert(track >= 0 && track < static_cast<int>(s.tracks.size()));
-  Memory& memory = s.companions[track].memory;
-  memory.now.wall = aligned_with(wall_line(line, extent), memory.now.wall);
-  const Eigen::Vector2d middle = memory.now.wall.middle();
-  memory.now.point.azimuth = std::atan2(middle.y(), middle.x());
-  s.show_prediction(track);
-}
-
 // ---------------------------------------------------------------------------------------------- association
 
 const std::vector<Match>& Tracker::associate(const perception::Scene& scene) {

@@ -47,14 +47,12 @@ class Tracker {
 
   /// Sharpens the prediction of one track with knowledge from outside (a map and a predicted pose): the azimuth at
   /// which it should be seen in the coming scene, from the base origin. Between predict and associate. Under the
-  /// default method walls are matched by their lines: see expect_wall.
+  /// default method walls are matched by their lines, which this leaves as they are.
   /// \param sigma_azimuth  of the landmark and the predicted pose together, without that of the coming observation
   ///   [rad]
   void expect(int track, double azimuth, double sigma_azimuth);
   /// The same for all that can be known of a point: its position in the base frame. [m, m^2]
   void expect_point(int track, const Eigen::Vector2d& position, const Eigen::Matrix2d& covariance);
-  /// The same for a wall, in the base frame. Its extent as it should be visible, as far as that is known.
-  void expect_wall(int track, const geometry::LineEstimate& line, const geometry::Segment& extent);
 
   /// Extended-open-world matching of the predictions with the scene's primitives, and their assignment.
   /// \returns the matches; what is in none of them has appeared (`appeared()`).

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "geometry/angles.hpp"
 #include "tracking/prediction.hpp"
 
 namespace credo::tracking {
@@ -13,7 +14,7 @@ namespace credo::tracking {
 /// now, or the other way round (Clerentin et al., sec. 4.4, fig. 16).
 struct TransitionParams {
   double max_distance_m = 0.15;  ///< across the wall, and of the junction from its end
-  double max_angle_rad = 10.0 * 3.14159265358979 / 180.0;
+  double max_angle_rad = geometry::to_radians(10.0);
   double unmoved_m = 0.3;  ///< added where no motion carried the prediction: the step between two acquisitions
 };
 

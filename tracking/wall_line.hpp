@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "geometry/angles.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/segment.hpp"
 
@@ -46,7 +47,7 @@ struct WallDifference {
 
 /// What even a perfect sensor and a perfect prediction leave: walls are not ideal lines. 1-sigma.
 struct WallFloors {
-  double angle_rad = 0.3 * 3.14159265358979 / 180.0;
+  double angle_rad = geometry::to_radians(0.3);
   double across_m = 0.02;
   double gap_m = 0.10;  ///< ends move where something stands before the wall
 };

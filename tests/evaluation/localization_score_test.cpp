@@ -106,6 +106,19 @@ TEST(LocalizationScore, RefusesATruthOfAnotherTime) {
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("belong together")));
 }
 
+TEST(DegradedIntervals, RunFromTheFirstEventOfASensorToItsRestoration) {
+  const auto intervals = degraded_intervals({{1, "camera0_degraded"},
+                                             {2, "camera0_failed"},
+                                             {3, "range0_failed"},
+                                             {4, "lights_off"},
+                                             {5, "camera0_restored"},
+                                             {6, "camera0_restored"}});
+  ASSERT_EQ(intervals.size(), 2U);
+  EXPECT_EQ(intervals[0], (Interval{1, 5}));
+  EXPECT_EQ(intervals[1].first, 3);
+  EXPECT_GT(intervals[1].second, sensors::kLatestTime) << "never restored";
+}
+
 TEST(TruthAt, InterpolatesShortGapsOnly) {
   const std::vector<datasets::TimedPose> rows{{0, {0, 0, 0}}, {kSecond / 10, {1, 0, 0}}, {2 * kSecond, {9, 0, 0}}};
   EXPECT_NEAR(truth_at(rows, kSecond / 20)->x, 0.5, 1e-12);

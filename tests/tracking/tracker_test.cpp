@@ -402,16 +402,6 @@ TEST(Tracker, FollowsWallsWithoutOdometry) {
   EXPECT_EQ(tracker.tracks()[1].hits, 10);
 }
 
-TEST(Tracker, TakesAnExpectedWallForItsPrediction) {
-  Tracker tracker;
-  follow(tracker, scene({wall(3.0, 1.0, -3.0, 1.0)}), motion(0.0, 0.0, 0.0));
-  tracker.predict(motion(0.0, 0.0, 0.0));
-  const geometry::Segment there{{3.0, 1.6}, {-3.0, 1.6}};
-  tracker.expect_wall(0, line_through(there), there);
-  const Scene seen = scene({wall(3.0, 1.0, -3.0, 1.0), wall(3.0, 1.6, -3.0, 1.6)});
-  EXPECT_EQ(tracker.associate(seen).at(0).primitive, 1);
-}
-
 // ---------------------------------------------------------------------------------------------- life
 
 TEST(Tracker, DiesAtTheFifthOrSixthMiss) {
