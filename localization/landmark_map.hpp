@@ -49,6 +49,8 @@ class LandmarkMap {
 
   [[nodiscard]] const std::vector<WallLandmark>& walls() const { return walls_; }
   [[nodiscard]] const std::vector<PointLandmark>& points() const { return points_; }
+  /// The plan's walls as they are: what hides.
+  [[nodiscard]] const std::vector<geometry::Segment>& surfaces() const { return surfaces_; }
   [[nodiscard]] double uncertainty_m() const { return uncertainty_m_; }
   [[nodiscard]] bool empty() const { return walls_.empty() && points_.empty(); }
 
@@ -87,7 +89,7 @@ class LandmarkMap {
 
   LandmarkMapParams params_;
   double uncertainty_m_ = 0.0;
-  std::vector<geometry::Segment> surfaces_;  ///< the plan's walls as they are: what hides
+  std::vector<geometry::Segment> surfaces_;
   std::vector<WallLandmark> walls_;
   std::vector<PointLandmark> points_;
 };

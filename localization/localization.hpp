@@ -36,6 +36,7 @@ struct Localization {
   double conflict = 0.0;            ///< between its criteria
   double innovation = 0.0;          ///< squared Mahalanobis distance of the pose from its prediction
   bool unrecognised = false;        ///< much of what the plan has in sight is not seen
+  bool off_plan = false;            ///< much of the scan does not lie on the plan
   Status status = Status::kInitializing;
   int detected = 0;                    ///< primitives in the scene
   int matched = 0;                     ///< of them, matched to the map and used for the pose

@@ -20,11 +20,16 @@ BinaryMass recognition_belief(const LocalizationEvidence& evidence, const Locali
   return params.recognised(static_cast<double>(evidence.recognised) / evidence.in_sight);
 }
 
+BinaryMass agreement_belief(const LocalizationEvidence& evidence, const LocalizationBeliefParams& params) {
+  return evidence.scan_agreement ? params.scan_agreement(*evidence.scan_agreement) : BinaryMass::vacuous();
+}
+
 evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& evidence,
                                               const LocalizationBeliefParams& params) {
   const double ratio =
       evidence.detected > 0.0 ? evidence.explained / evidence.detected : std::numeric_limits<double>::quiet_NaN();
-  const std::array criteria{params.count(evidence.matched), params.ratio(ratio), recognition_belief(evidence, params)};
+  const std::array criteria{params.count(evidence.matched), params.ratio(ratio), recognition_belief(evidence, params),
+                            agreement_belief(evidence, params)};
   std::vector<evidence::Part> parts;
   for (const tracking::Track& track : evidence.tracks) {
     if (track.landmark == tracking::kNoLandmark || track.state != tracking::TrackState::kTracked) continue;
@@ -55,6 +60,7 @@ void judge(Localization& localization, bool camera_seen, bool range_finder_seen,
     because("few landmarks");
   if (belief.no > belief.yes) because("most of what is seen is not in the plan");
   if (localization.unrecognised) because("landmarks that should be in sight are not seen");
+  if (localization.off_plan) because("the scan does not lie on the plan");
   // Written so that what is not a number fails.
   const bool position_known = sigma <= params.max_position_sigma_m;
   const bool heading_known = std::sqrt(P(2, 2)) <= params.max_heading_sigma_rad;
@@ -65,8 +71,8 @@ void judge(Localization& localization, bool camera_seen, bool range_finder_seen,
 
   if (belief.no > belief.yes) {
     localization.status = Status::kLost;
-  } else if (localization.matched == 0 || localization.unrecognised || !(belief.yes > params.min_belief_yes) ||
-             !position_known || !heading_known || !predicted) {
+  } else if (localization.matched == 0 || localization.unrecognised || localization.off_plan ||
+             !(belief.yes > params.min_belief_yes) || !position_known || !heading_known || !predicted) {
     localization.status = Status::kUncertain;
     if (localization.reason.empty()) because("belief is weak");
   } else {

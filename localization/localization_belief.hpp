@@ -35,6 +35,14 @@ struct LocalizationBeliefParams {
                                   .max_no = 0.8,
                                   .no_zero_until = 0.4,
                                   .no_full_from = 0.25};
+  /// The default's fourth: on the share of the scan's points that lie on the plan. One that fits the walls says little
+  /// of where along them; one that does not says that the pose is wrong.
+  evidence::RampBelief scan_agreement{.max_yes = 0.0,
+                                      .yes_full_until = 1.0,
+                                      .yes_zero_from = 0.0,
+                                      .max_no = 0.9,
+                                      .no_zero_until = 0.70,
+                                      .no_full_from = 0.45};
   int least_in_sight = 4;          ///< fewer points say nothing
   double wall_reliability = 0.3;   ///< of a wall's track as a criterion
   double other_reliability = 0.6;  ///< of a corner's, an edge's, another's: the strong azimuths
@@ -43,6 +51,10 @@ struct LocalizationBeliefParams {
 /// Whether what should be seen is seen: vacuous under the paper's method, and where there is too little to say.
 [[nodiscard]] evidence::BinaryMass recognition_belief(const LocalizationEvidence& evidence,
                                                       const LocalizationBeliefParams& params = {});
+
+/// Whether the raw scan lies on the plan: vacuous where there is nothing to tell.
+[[nodiscard]] evidence::BinaryMass agreement_belief(const LocalizationEvidence& evidence,
+                                                    const LocalizationBeliefParams& params = {});
 
 /// Mass on "the localization is correct". The tracks that were matched in this acquisition and have a landmark take
 /// part.

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "localization/landmark_map.hpp"
@@ -19,6 +20,8 @@ struct LocalizationEvidence {
   double explained = 0.0;  ///< of them, matched
   int in_sight = 0;        ///< points of the plan that should be seen from the pose
   int recognised = 0;      ///< of them, matched
+  /// ScanAgreement::share of the raw scan; nothing where there is no scan to tell, and under the paper's method.
+  std::optional<double> scan_agreement;
   std::span<const tracking::Track> tracks;
 };
 

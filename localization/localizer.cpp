@@ -91,6 +91,7 @@ struct Localizer::State {
         later_matcher(map, params.matching),
         first_matcher(map, initial_matching(params.matching)),
         solver(rig, params.solver),
+        scan_matcher(map, params.scan),
         tracker(params.tracker),
         absolute(initial.has_value() && !map.empty()),
         predictor(params.constant_velocity) {
@@ -107,9 +108,9 @@ struct Localizer::State {
   MapMatcher later_matcher;
   MapMatcher first_matcher;
   PoseSolver solver;
+  ScanMatcher scan_matcher;
   tracking::Tracker tracker;
-  bool absolute;         ///< poses are in the map frame, not relative to the start
-  bool doubted = false;  ///< much that should have been seen from the latest fix was not
+  bool absolute;  ///< poses are in the map frame, not relative to the start
   SplitPose current;
   PoseHistory history;
   MotionPredictor predictor;
@@ -141,6 +142,8 @@ struct Localizer::State {
   void start_tracks(const Scene& scene);
   void drop_contradicting_landmarks();
   void forget_lost_tracks();
+  [[nodiscard]] std::optional<double> scan_agreement(const Scene& scene, const Pose2& pose) const;
+  void search_pose(const Scene& scene, const SplitPose& predicted);
   [[nodiscard]] Localization report(const Scene& scene) const;
   void weigh(const Scene& scene, Localization& fix);
   void remember(const Localization& fix);
@@ -166,12 +169,11 @@ PoseEstimate Localizer::State::predict(const Scene& scene, const std::optional<P
     if (predictor.empty()) step.pose = likeliest_first_step(scene);
     expect_young_tracks(step.pose);
   }
-  if (doubted) step.covariance += doubt();
   if (!paper) expect_landmarks(moved(current, step));
   return step;
 }
 
-/// What is added to the motion's covariance after a fix from which the plan is not recognised: wheels may have slipped.
+/// What is added to the covariance of a pose from which the plan is not recognised: wheels may have slipped.
 Matrix3d Localizer::State::doubt() const {
   const double position = params.doubt_sigma_m * params.doubt_sigma_m;
   return Eigen::Vector3d(position, position, params.doubt_sigma_rad * params.doubt_sigma_rad).asDiagonal();
@@ -290,6 +292,31 @@ void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted)
   }
 }
 
+/// The share of the scan that lies on the plan as seen from a pose.
+std::optional<double> Localizer::State::scan_agreement(const Scene& scene, const Pose2& pose) const {
+  if (params.method == perception::Method::kPaper) return {};
+  return scan_matcher.compare(scene.points, pose).share(params.scan);
+}
+
+/// Primitives that were matched wrongly agree with the wrong pose that they make; the raw scan does not. Where much of
+/// it does not lie on the plan, and would from another pose nearby, everything is matched anew from there.
+void Localizer::State::search_pose(const Scene& scene, const SplitPose& predicted) {
+  const std::optional<double> found = scan_agreement(scene, current.pose);
+  if (!found || *found >= params.search_below) return;
+  SplitPose wide = predicted;
+  wide.independent += doubt();
+  const Pose2 other = scan_matcher.search(scene.points, {wide.pose, wide.covariance()});
+  if (*scan_agreement(scene, other) < *found + params.search_gain) return;
+  for (std::size_t t = 0; t < tracker.tracks().size(); ++t) tracker.relabel(static_cast<int>(t), kNoLandmark);
+  observations.clear();
+  new_matches.clear();
+  wall_in_use.assign(scene.segments.size(), false);
+  const double position = params.searched_sigma_m * params.searched_sigma_m;
+  const double turn = params.searched_sigma_rad * params.searched_sigma_rad;
+  solve(scene, {other, Eigen::Vector3d(position, position, turn).asDiagonal(), Matrix3d::Zero()});
+  match_map(scene, wide);
+}
+
 /// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
 void Localizer::State::solve_motion(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion) {
   observations.clear();
@@ -393,6 +420,7 @@ Localization Localizer::State::report(const Scene& scene) const {
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   LocalizationEvidence evidence = gather_evidence(scene, map, observations, solver.solution(), params.evidence);
   evidence.tracks = tracker.tracks();
+  evidence.scan_agreement = scan_agreement(scene, current.pose);
   const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
   const evidence::FusedBinaryMass belief =
       scene.primitives.empty() ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
@@ -403,7 +431,12 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   fix.innovation = solver.solution().prior_mahalanobis_squared;
   if (fix.innovation > params.status.max_innovation)
     fix.belief = evidence::discount(fix.belief, params.contradiction_reliability);
-  fix.unrecognised = doubted = recognition_belief(evidence, params.belief).no > 0.0;
+  fix.unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
+  fix.off_plan = agreement_belief(evidence, params.belief).no > 0.0;
+  if (fix.unrecognised || fix.off_plan) {
+    current.independent += doubt();
+    fix.estimate = estimate();
+  }
   judge(fix, scene.camera_seen, scene.range_finder_seen, params.status);
 }
 
@@ -448,6 +481,7 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
     s.solve(scene, predicted);
     // 4. The map for what has appeared, and the pose again.
     s.match_map(scene, predicted);
+    s.search_pose(scene, predicted);
     s.label_tracks(matches);
   } else {
     s.solve_motion(scene, matches, step);

@@ -14,6 +14,7 @@
 #include "localization/motion_prediction.hpp"
 #include "localization/observations.hpp"
 #include "localization/pose_solver.hpp"
+#include "localization/scan_agreement.hpp"
 #include "tracking/tracker.hpp"
 
 namespace credo::localization {
@@ -25,11 +26,17 @@ struct LocalizerParams {
   MapMatchingParams matching;
   ObservationParams observations;
   PoseSolverParams solver;
+  ScanAgreementParams scan;
   LocalizationEvidenceParams evidence;
   LocalizationBeliefParams belief;
   StatusParams status;
   ConstantVelocityParams constant_velocity;
-  int matching_rounds = 3;     ///< map matching and pose in turn: each round knows the pose better
+  int matching_rounds = 3;  ///< map matching and pose in turn: each round knows the pose better
+  double search_below =
+      0.75;  ///< of the scan on the plan: the pose is searched anew, and taken from `search_gain` more on
+  double search_gain = 0.10;
+  double searched_sigma_m = 0.10;  ///< of a pose that was searched
+  double searched_sigma_rad = 0.02;
   double doubt_sigma_m = 0.3;  ///< how far the pose may be off where the points in sight are not recognised
   double doubt_sigma_rad = 0.05;
   double contradiction_reliability = 0.5;  ///< of the belief where the pose contradicts its prediction
