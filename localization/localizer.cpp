@@ -9,6 +9,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "localization/pose_history.hpp"
 
@@ -112,6 +113,8 @@ struct Localizer::State {
   tracking::Tracker tracker;
   bool absolute;  ///< poses are in the map frame, not relative to the start
   SplitPose current;
+  PoseSolution solution;
+  int matched_before = 0;  ///< primitives that the latest fix rests on
   PoseHistory history;
   MotionPredictor predictor;
   std::map<int, int> contradictions;  ///< in a row, by track id
@@ -142,8 +145,9 @@ struct Localizer::State {
   void start_tracks(const Scene& scene);
   void drop_contradicting_landmarks();
   void forget_lost_tracks();
-  [[nodiscard]] std::optional<double> scan_agreement(const Scene& scene, const Pose2& pose) const;
-  void search_pose(const Scene& scene, const SplitPose& predicted);
+  [[nodiscard]] LocalizationEvidence evidence(const Scene& scene) const;
+  [[nodiscard]] double quality(const LocalizationEvidence& evidence, const Scene& scene) const;
+  void search_pose(const Scene& scene, const SplitPose& predicted, bool odometry);
   [[nodiscard]] Localization report(const Scene& scene) const;
   void weigh(const Scene& scene, Localization& fix);
   void remember(const Localization& fix);
@@ -268,7 +272,8 @@ void Localizer::State::list_unmatched(const Scene& scene) {
 }
 
 void Localizer::State::solve(const Scene& scene, const SplitPose& predicted) {
-  current = solver.solve(predicted, observations, scene.carry_covariance).pose;
+  solution = solver.solve(predicted, observations, scene.carry_covariance);
+  current = solution.pose;
 }
 
 /// What continues no track of the map is matched to the map, walls before points, from a pose that every round knows
@@ -292,29 +297,53 @@ void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted)
   }
 }
 
-/// The share of the scan that lies on the plan as seen from a pose.
-std::optional<double> Localizer::State::scan_agreement(const Scene& scene, const Pose2& pose) const {
-  if (params.method == perception::Method::kPaper) return {};
-  return scan_matcher.compare(scene.points, pose).share(params.scan);
+/// What speaks for and against the current pose, the tracks left out.
+LocalizationEvidence Localizer::State::evidence(const Scene& scene) const {
+  LocalizationEvidence evidence = gather_evidence(scene, map, observations, solution, params.evidence);
+  if (params.method == perception::Method::kDefault)
+    evidence.scan_agreement = scan_matcher.compare(scene.points, current.pose).share(params.scan);
+  return evidence;
 }
 
-/// Primitives that were matched wrongly agree with the wrong pose that they make; the raw scan does not. Where much of
-/// it does not lie on the plan, and would from another pose nearby, everything is matched anew from there.
-void Localizer::State::search_pose(const Scene& scene, const SplitPose& predicted) {
-  const std::optional<double> found = scan_agreement(scene, current.pose);
-  if (!found || *found >= params.search_below) return;
+/// By which two ways to match a scene are compared: the belief in the pose and the share of what is seen that it
+/// explains.
+double Localizer::State::quality(const LocalizationEvidence& evidence, const Scene& scene) const {
+  const double share = evidence.matched / std::max(1.0, static_cast<double>(scene.primitives.size()));
+  return localization_belief(evidence, params.belief).mass.pignistic() + params.matched_share_weight * share;
+}
+
+/// Primitives that were matched wrongly agree with the wrong pose that they make; the raw scan and the landmarks that
+/// should be in sight do not. Where these speak against the pose, everything is matched anew from the pose nearby from
+/// which the scan lies best on the plan, and what is believed more is kept.
+void Localizer::State::search_pose(const Scene& scene, const SplitPose& predicted, bool odometry) {
+  const LocalizationEvidence found = evidence(scene);
+  if (!found.scan_agreement) return;
+  const bool off_plan = *found.scan_agreement < params.search_below;
+  const bool unrecognised = recognition_belief(found, params.belief).no > 0.0;
+  const bool lost_sight = found.matched < params.search_matched_below * matched_before;
+  if (!off_plan && !unrecognised && !lost_sight) return;
   SplitPose wide = predicted;
   wide.independent += doubt();
+  if (!odometry) wide.independent(2, 2) += params.unforeseen_turn_sigma_rad * params.unforeseen_turn_sigma_rad;
   const Pose2 other = scan_matcher.search(scene.points, {wide.pose, wide.covariance()});
-  if (*scan_agreement(scene, other) < *found + params.search_gain) return;
-  for (std::size_t t = 0; t < tracker.tracks().size(); ++t) tracker.relabel(static_cast<int>(t), kNoLandmark);
-  observations.clear();
-  new_matches.clear();
-  wall_in_use.assign(scene.segments.size(), false);
   const double position = params.searched_sigma_m * params.searched_sigma_m;
   const double turn = params.searched_sigma_rad * params.searched_sigma_rad;
+
+  const SplitPose pose_before = current;
+  std::vector<Observation> observations_before = std::exchange(observations, {});
+  std::vector<MapMatch> matches_before = std::exchange(new_matches, {});
+  const PoseSolution solution_before = solution;
+  wall_in_use.assign(scene.segments.size(), false);
   solve(scene, {other, Eigen::Vector3d(position, position, turn).asDiagonal(), Matrix3d::Zero()});
   match_map(scene, wide);
+  if (quality(evidence(scene), scene) > quality(found, scene) + params.search_gain) {
+    for (std::size_t t = 0; t < tracker.tracks().size(); ++t) tracker.relabel(static_cast<int>(t), kNoLandmark);
+    return;
+  }
+  current = pose_before;
+  observations = std::move(observations_before);
+  new_matches = std::move(matches_before);
+  solution = solution_before;
 }
 
 /// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
@@ -331,7 +360,7 @@ void Localizer::State::solve_motion(const Scene& scene, const std::vector<Match>
     observations.back().primitive = match.primitive;
   }
   const SplitPose prior{motion.pose, motion.covariance, Matrix3d::Zero()};
-  const PoseSolution& solution = solver.solve(prior, observations, scene.carry_covariance);
+  solution = solver.solve(prior, observations, scene.carry_covariance);
   current = moved(current, {solution.pose.pose, solution.pose.covariance()});
 }
 
@@ -379,7 +408,6 @@ void Localizer::State::start_tracks(const Scene& scene) {
 /// A wrong match shows as a residual that the pose does not explain. Once may be bad luck; a track that goes on is
 /// somebody else.
 void Localizer::State::drop_contradicting_landmarks() {
-  const PoseSolution& solution = solver.solution();
   for (std::size_t k = 0; k < solution.outlier.size(); ++k) {
     const int index = observations[k].track;
     if (index < 0) continue;
@@ -418,21 +446,20 @@ Localization Localizer::State::report(const Scene& scene) const {
 /// Belief and status of an absolute pose. Where nothing is seen there is no evidence against it: what was believed
 /// fades into not knowing.
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
-  LocalizationEvidence evidence = gather_evidence(scene, map, observations, solver.solution(), params.evidence);
-  evidence.tracks = tracker.tracks();
-  evidence.scan_agreement = scan_agreement(scene, current.pose);
+  LocalizationEvidence found = evidence(scene);
+  found.tracks = tracker.tracks();
   const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
   const evidence::FusedBinaryMass belief =
       scene.primitives.empty() ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
-                               : localization_belief(evidence, params.belief);
+                               : localization_belief(found, params.belief);
   fix.belief = belief.mass;
   fix.conflict = belief.conflict;
-  fix.matched = evidence.matched;
-  fix.innovation = solver.solution().prior_mahalanobis_squared;
+  fix.matched = matched_before = found.matched;
+  fix.innovation = solution.prior_mahalanobis_squared;
   if (fix.innovation > params.status.max_innovation)
     fix.belief = evidence::discount(fix.belief, params.contradiction_reliability);
-  fix.unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
-  fix.off_plan = agreement_belief(evidence, params.belief).no > 0.0;
+  fix.unrecognised = recognition_belief(found, params.belief).no > 0.0;
+  fix.off_plan = agreement_belief(found, params.belief).no > 0.0;
   if (fix.unrecognised || fix.off_plan) {
     current.independent += doubt();
     fix.estimate = estimate();
@@ -481,7 +508,7 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
     s.solve(scene, predicted);
     // 4. The map for what has appeared, and the pose again.
     s.match_map(scene, predicted);
-    s.search_pose(scene, predicted);
+    s.search_pose(scene, predicted, motion.has_value());
     s.label_tracks(matches);
   } else {
     s.solve_motion(scene, matches, step);
@@ -507,7 +534,7 @@ evidence::Believed<PoseEstimate> Localizer::pose_at(Timestamp time) const {
 
 const std::vector<Track>& Localizer::tracks() const { return state_->tracker.tracks(); }
 const std::vector<Observation>& Localizer::observations() const { return state_->observations; }
-const PoseSolution& Localizer::solution() const { return state_->solver.solution(); }
+const PoseSolution& Localizer::solution() const { return state_->solution; }
 const LandmarkMap& Localizer::map() const { return state_->map; }
 const LocalizerParams& Localizer::params() const { return state_->params; }
 

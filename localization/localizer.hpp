@@ -32,11 +32,15 @@ struct LocalizerParams {
   StatusParams status;
   ConstantVelocityParams constant_velocity;
   int matching_rounds = 3;  ///< map matching and pose in turn: each round knows the pose better
-  double search_below =
-      0.75;  ///< of the scan on the plan: the pose is searched anew, and taken from `search_gain` more on
-  double search_gain = 0.10;
-  double searched_sigma_m = 0.10;  ///< of a pose that was searched
+  // When a pose is searched nearby, by the raw scan: where so little of the scan lies on the plan, or
+  double search_below = 0.75;
+  double search_matched_below = 0.7;       ///< so few are matched of those that the fix before rested on.
+  double search_gain = 0.10;               ///< what was found is kept from this gain in quality on:
+  double matched_share_weight = 0.5;       ///< BetP(YES) and, with this weight, the share of the scene that is matched
+  double unforeseen_turn_sigma_rad = 0.6;  ///< of the search where there is no odometry
+  double searched_sigma_m = 0.10;          ///< of a pose that was found
   double searched_sigma_rad = 0.02;
+
   double doubt_sigma_m = 0.3;  ///< how far the pose may be off where the points in sight are not recognised
   double doubt_sigma_rad = 0.05;
   double contradiction_reliability = 0.5;  ///< of the belief where the pose contradicts its prediction

@@ -22,11 +22,11 @@ struct ScanAgreementParams {
   // The search, in steps around the pose that is expected.
   double search_sigmas = 2.5;       ///< how far, in the expected pose's standard deviations, but
   double search_at_most_m = 1.0;    ///< no farther
-  double search_at_most_rad = 0.8;  ///< and no turn larger
+  double search_at_most_rad = 1.6;  ///< and no turn larger
   double search_step_m = 0.10;
   double search_step_rad = 0.0175;  ///< 1 degree
   int search_points = 120;          ///< as most_points
-  double prior_weight = 0.02;       ///< of a squared Mahalanobis distance from the expected pose, against the mean fit
+  double prior_weight = 0.004;      ///< of a squared Mahalanobis distance from the expected pose, against the mean fit
 };
 
 /// How a scan lies on the plan as seen from a pose. Counts of points.
