@@ -114,7 +114,8 @@ struct Localizer::State {
   bool absolute;  ///< poses are in the map frame, not relative to the start
   SplitPose current;
   PoseSolution solution;
-  int matched_before = 0;  ///< primitives that the latest fix rests on
+  LocalizationEvidence evidence;  ///< about `current`
+  int matched_before = 0;         ///< primitives that the latest fix rests on
   PoseHistory history;
   MotionPredictor predictor;
   std::map<int, int> contradictions;  ///< in a row, by track id
@@ -145,8 +146,8 @@ struct Localizer::State {
   void start_tracks(const Scene& scene);
   void drop_contradicting_landmarks();
   void forget_lost_tracks();
-  [[nodiscard]] LocalizationEvidence evidence(const Scene& scene) const;
-  [[nodiscard]] double quality(const LocalizationEvidence& evidence, const Scene& scene) const;
+  [[nodiscard]] LocalizationEvidence gather(const Scene& scene) const;
+  [[nodiscard]] double quality(const LocalizationEvidence& found, const Scene& scene) const;
   void search_pose(const Scene& scene, const SplitPose& predicted, bool odometry);
   [[nodiscard]] Localization report(const Scene& scene) const;
   void weigh(const Scene& scene, Localization& fix);
@@ -298,29 +299,29 @@ void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted)
 }
 
 /// What speaks for and against the current pose, the tracks left out.
-LocalizationEvidence Localizer::State::evidence(const Scene& scene) const {
-  LocalizationEvidence evidence = gather_evidence(scene, map, observations, solution, params.evidence);
+LocalizationEvidence Localizer::State::gather(const Scene& scene) const {
+  LocalizationEvidence gathered = gather_evidence(scene, map, observations, solution, params.evidence);
   if (params.method == perception::Method::kDefault)
-    evidence.scan_agreement = scan_matcher.compare(scene.points, current.pose).share(params.scan);
-  return evidence;
+    gathered.scan_agreement = scan_matcher.compare(scene.points, current.pose).share(params.scan);
+  return gathered;
 }
 
 /// By which two ways to match a scene are compared: the belief in the pose and the share of what is seen that it
 /// explains.
-double Localizer::State::quality(const LocalizationEvidence& evidence, const Scene& scene) const {
-  const double share = evidence.matched / std::max(1.0, static_cast<double>(scene.primitives.size()));
-  return localization_belief(evidence, params.belief).mass.pignistic() + params.matched_share_weight * share;
+double Localizer::State::quality(const LocalizationEvidence& found, const Scene& scene) const {
+  const double share = found.matched / std::max(1.0, static_cast<double>(scene.primitives.size()));
+  return localization_belief(found, params.belief).mass.pignistic() + params.matched_share_weight * share;
 }
 
-/// Primitives that were matched wrongly agree with the wrong pose that they make; the raw scan and the landmarks that
-/// should be in sight do not. Where these speak against the pose, everything is matched anew from the pose nearby from
-/// which the scan lies best on the plan, and what is believed more is kept.
+/// Gathers the evidence about the pose. Primitives that were matched wrongly agree with the wrong pose that they make;
+/// the raw scan and the landmarks that should be in sight do not. Where these speak against the pose, everything is
+/// matched anew from the pose nearby from which the scan lies best on the plan, and what is believed more is kept.
 void Localizer::State::search_pose(const Scene& scene, const SplitPose& predicted, bool odometry) {
-  const LocalizationEvidence found = evidence(scene);
-  if (!found.scan_agreement) return;
-  const bool off_plan = *found.scan_agreement < params.search_below;
-  const bool unrecognised = recognition_belief(found, params.belief).no > 0.0;
-  const bool lost_sight = found.matched < params.search_matched_below * matched_before;
+  evidence = gather(scene);
+  if (!evidence.scan_agreement) return;
+  const bool off_plan = *evidence.scan_agreement < params.search_below;
+  const bool unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
+  const bool lost_sight = evidence.matched < params.search_matched_below * matched_before;
   if (!off_plan && !unrecognised && !lost_sight) return;
   SplitPose wide = predicted;
   wide.independent += doubt();
@@ -336,7 +337,9 @@ void Localizer::State::search_pose(const Scene& scene, const SplitPose& predicte
   wall_in_use.assign(scene.segments.size(), false);
   solve(scene, {other, Eigen::Vector3d(position, position, turn).asDiagonal(), Matrix3d::Zero()});
   match_map(scene, wide);
-  if (quality(evidence(scene), scene) > quality(found, scene) + params.search_gain) {
+  const LocalizationEvidence found = gather(scene);
+  if (quality(found, scene) > quality(evidence, scene) + params.search_gain) {
+    evidence = found;
     for (std::size_t t = 0; t < tracker.tracks().size(); ++t) tracker.relabel(static_cast<int>(t), kNoLandmark);
     return;
   }
@@ -446,20 +449,19 @@ Localization Localizer::State::report(const Scene& scene) const {
 /// Belief and status of an absolute pose. Where nothing is seen there is no evidence against it: what was believed
 /// fades into not knowing.
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
-  LocalizationEvidence found = evidence(scene);
-  found.tracks = tracker.tracks();
+  evidence.tracks = tracker.tracks();
   const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
   const evidence::FusedBinaryMass belief =
       scene.primitives.empty() ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
-                               : localization_belief(found, params.belief);
+                               : localization_belief(evidence, params.belief);
   fix.belief = belief.mass;
   fix.conflict = belief.conflict;
-  fix.matched = matched_before = found.matched;
+  fix.matched = matched_before = evidence.matched;
   fix.innovation = solution.prior_mahalanobis_squared;
   if (fix.innovation > params.status.max_innovation)
     fix.belief = evidence::discount(fix.belief, params.contradiction_reliability);
-  fix.unrecognised = recognition_belief(found, params.belief).no > 0.0;
-  fix.off_plan = agreement_belief(found, params.belief).no > 0.0;
+  fix.unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
+  fix.off_plan = agreement_belief(evidence, params.belief).no > 0.0;
   if (fix.unrecognised || fix.off_plan) {
     current.independent += doubt();
     fix.estimate = estimate();

@@ -58,7 +58,7 @@ double ScanMatcher::fit(const Pose2& pose) const {
 
 Pose2 ScanMatcher::search(std::span<const ScanPoint> points, const geometry::PoseEstimate& expected) {
   chosen_.clear();
-  for (std::size_t i = 0; i < points.size(); i += stride(points.size(), params_.search_points))
+  for (std::size_t i = 0; i < points.size(); i += stride(points.size(), params_.most_points))
     chosen_.push_back(points[i].position);
   if (chosen_.empty()) return expected.pose;
   turned_.resize(chosen_.size());

@@ -13,7 +13,7 @@
 namespace credo::localization {
 
 struct ScanAgreementParams {
-  int most_points = 180;        ///< of a scan that are looked at, evenly chosen
+  int most_points = 120;        ///< of a scan that are looked at, evenly chosen
   int least_points = 30;        ///< fewer say nothing
   double on_plan_m = 0.10;      ///< a point this near to a wall of the plan, and
   double on_plan_sigmas = 2.0;  ///< so many of its standard deviations, lies on it
@@ -25,7 +25,6 @@ struct ScanAgreementParams {
   double search_at_most_rad = 1.6;  ///< and no turn larger
   double search_step_m = 0.10;
   double search_step_rad = 0.0175;  ///< 1 degree
-  int search_points = 120;          ///< as most_points
   double prior_weight = 0.004;      ///< of a squared Mahalanobis distance from the expected pose, against the mean fit
 };
 

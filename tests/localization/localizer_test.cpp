@@ -189,10 +189,26 @@ TEST(Localizer, ASlipOfTheWheelsIsNotBelieved) {
     }
 }
 
-TEST(Localizer, FindsBackFromASmallSlip) {
-  const auto fixes = slipped_drive(0.3);
-  EXPECT_LT(position_error(fixes.back().first, fixes.back().second), 0.05);
-  EXPECT_EQ(fixes.back().first.status, Status::kLocalized);
+TEST(Localizer, FindsBackFromASlip) {
+  for (const double slip : {0.3, 0.6, -0.6}) {
+    const auto fixes = slipped_drive(slip);
+    EXPECT_LT(position_error(fixes.back().first, fixes.back().second), 0.05) << slip;
+    EXPECT_EQ(fixes.back().first.status, Status::kLocalized) << slip;
+  }
+}
+
+TEST(Localizer, FindsBackFromATurnThatOdometryGotWrong) {
+  for (const double turn_error : {0.08, 0.15, -0.2}) {
+    Drive drive(8);
+    Pipeline localize(room(), given({1.0, 1.5, 0.0}));
+    Pose2 truth{1.0, 1.5, 0.0};
+    for (int i = 0; i < 10; ++i) {
+      const Pose2 step{0.2, 0.0, 0.3};
+      const Localization fix = localize(drive.acquire(truth, {0.2, 0.0, step.theta + (i == 4 ? turn_error : 0.0)}));
+      EXPECT_LT(position_error(fix, truth), 0.05) << turn_error << " rad, acquisition " << i;
+      truth = truth * step;
+    }
+  }
 }
 
 TEST(Localizer, WithoutAPlanItGivesTheMotionFromItsStart) {
