@@ -77,8 +77,8 @@ CellState decide(const FixedLogCommonality& cell, const DecisionParams& params) 
   const double occupied = mass.occupied + 0.5 * mass.unknown;  // pignistic
   if (occupied >= params.occupied_from) return CellState::kOccupied;
   if (occupied <= params.empty_until) return CellState::kEmpty;
-  // Between the two: either both are supported, or neither enough.
-  return mass.empty > 0.0 && mass.occupied > 0.0 ? CellState::kContested : CellState::kUnknown;
+  // Between the two: both are supported, or neither enough.
+  return evidence::contested(value) >= params.contested_between ? CellState::kContested : CellState::kUnknown;
 }
 
 std::vector<float> layer(const EvidentialGrid& grid, const CellBox& box, Layer which) {

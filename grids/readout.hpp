@@ -17,7 +17,8 @@ struct DecisionParams {
   double unknown_above = 0.5;   ///< more ignorance than this: unknown
   double occupied_from = 0.65;  ///< probability of "occupied" from which a cell is occupied (that of map_server)
   double empty_until = 0.196;   ///< probability of "occupied" up to which a cell is empty (that of map_server)
-  double contested_from = 0.8;  ///< from this balance of evidence for and against: contested, whatever the probability
+  double contested_from = 0.8;  ///< from this balance of evidence for and against: contested, whatever the probability;
+  double contested_between = 0.5;  ///< from this one where it is neither empty nor occupied; below, it is unknown
 };
 
 /// What to call a cell. The read-outs themselves are those of evidence::LogCommonality.

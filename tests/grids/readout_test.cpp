@@ -37,6 +37,13 @@ TEST(Decide, WeakEvidenceStaysUnknown) {
             CellState::kEmpty);
 }
 
+TEST(Decide, OneSidedEvidenceIsNotContestedForATraceOfTheOther) {
+  const FixedLogCommonality half_empty = evidence::quantise(evidence::log_commonality({0.55, 0.03, 0.0, 0.42}, 0.95));
+  EXPECT_EQ(decide(half_empty), CellState::kUnknown);
+  const FixedLogCommonality both = evidence::quantise(evidence::log_commonality({0.4, 0.3, 0.0, 0.3}, 0.95));
+  EXPECT_EQ(decide(both), CellState::kContested);
+}
+
 TEST(Layer, ReadsARectangleLowestRowFirst) {
   EvidentialGrid grid;
   grid.add({-1, 0}, evidence_of(1, 0));
