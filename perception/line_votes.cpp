@@ -63,11 +63,13 @@ const std::vector<LinePeak>& LineVotes::peaks(double least_share, double least_c
       return begin_[slot + 1] - begin_[slot];
     };
     const auto together = [&](int bin) { return votes(bin - 1) + votes(bin) + votes(bin + 1); };
+    // The middle bin weighs double, so that lines three bins apart make two peaks.
+    const auto height = [&](int bin) { return together(bin) + votes(bin); };
     const double chance = 3.0 * per_bin + least_chance_sigmas * std::sqrt(3.0 * per_bin);
     for (int bin = 0; bin < bins_; ++bin) {
       const int here = together(bin);
       const double least = std::max(least_share * std::max(1, usable_rows_[bin]), chance);
-      if (here < least || here < together(bin - 1) || here <= together(bin + 1)) continue;
+      if (here < least || height(bin) < height(bin - 1) || height(bin) <= height(bin + 1)) continue;
       peaks_.push_back({.azimuth = (bin + 0.5) * kTurn / bins_, .polarity = polarity, .votes = here, .bin = bin});
     }
   }

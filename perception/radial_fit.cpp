@@ -4,6 +4,7 @@
 #include "perception/radial_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "perception/tukey_weight.hpp"
@@ -35,6 +36,18 @@ Normal accumulate(std::span<const RadialPoint> points, const RadialFit& fit, dou
     sum.weight += share;
   }
   return sum;
+}
+
+/// Of the residuals, in expected standard deviations, by their median: up to half of the points may be outliers. >= 1.
+double spread(std::span<const RadialPoint> points, const RadialFit& fit) {
+  constexpr std::size_t kMost = 512;
+  std::array<double, kMost> magnitudes{};
+  const std::size_t step = 1 + points.size() / kMost;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); i += step) magnitudes[count++] = std::abs(residual(points[i], fit));
+  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(magnitudes.begin(), middle, magnitudes.begin() + static_cast<std::ptrdiff_t>(count));
+  return std::max(1.0, 1.4826 * *middle);
 }
 
 void count_support(std::span<const RadialPoint> points, const RadialFitParams& params, RadialFit& fit) {
@@ -74,7 +87,7 @@ RadialFit fit_radial_line(std::span<const RadialPoint> points, double start, dou
     fit.scale = std::max(1.0, std::sqrt(sum.weighted_square / std::max(1.0, sum.weight - 2.0)));
     fit.sigma = params.error_inflation * fit.scale * std::sqrt(pp / determinant);
     fit.sigma_slope = params.error_inflation * fit.scale * std::sqrt(sum.aa / determinant);
-    const double settled = params.tukey * std::min(fit.scale, 3.0);
+    const double settled = params.tukey * std::min(spread(points, fit), 3.0);
     if (limit <= settled && std::abs(fit.azimuth - before) < params.settled_sigmas * fit.sigma) break;
     limit = std::max(settled, 0.5 * limit);
   }
