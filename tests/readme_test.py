@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Credo Authors
 # SPDX-License-Identifier: Apache-2.0
-"""The README's C++ is a piece of an example that is compiled and run, its commands are commands, its links lead somewhere.
+"""The README's C++ is a piece of an example that is compiled and run, its commands are commands, its links lead somewhere,
+and what it shows of the demo is what the demo says.
 
 Usage: readme_test.py SOURCE_DIR CREDO
 """
@@ -9,6 +10,26 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
+
+
+def shown_but_not_said(readme, credo):
+    """The first line of the demo's block in the README that is not in its output, in order, times left out."""
+    timeless = lambda text: re.sub(r"[0-9.]+ ms", "_ ms", text)
+    block = re.search(r"^```\n(demo: .*?)```", readme, re.S | re.M)
+    if not block:
+        return "(no block of output)"
+    with tempfile.TemporaryDirectory() as folder:
+        said = subprocess.run([credo, "demo", "--out", str(pathlib.Path(folder) / "demo")], capture_output=True, text=True,
+                              check=True).stdout
+    said = timeless(said).splitlines()
+    for line in timeless(block.group(1)).splitlines():
+        if line in ("", "…"):
+            continue
+        if line not in said:
+            return line
+        said = said[said.index(line) + 1:]
+    return None
 
 
 def main():
@@ -34,6 +55,8 @@ def main():
     for script in set(re.findall(r"^(scripts/[a-z-]+)", readme, re.M)):
         if not (root / script).exists():
             faults.append(f"README.md runs {script}, which is not there")
+    if line := shown_but_not_said(readme, credo):
+        faults.append(f"README.md shows what the demo does not say:\n{line}")
     for link in re.findall(r"\]\(([^)#]+)\)", readme):
         if "://" not in link and not (root / link).exists():
             faults.append(f"README.md links to {link}, which is not there")
