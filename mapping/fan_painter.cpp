@@ -124,12 +124,9 @@ void FanPainter::paint_rows(const Fan& fan, const Table& table, int begin, int e
       }
       for (int i = 0; i < count; ++i) {
         const evidence::FixedLogCommonality& increment = entries[entry[i]];
-        const auto add = [](std::int32_t& channel, std::int32_t value) {
-          channel = std::max(channel, evidence::FixedLogCommonality::kFloor - value) + value;
-        };
-        add(tile.empty[place + i], increment.empty);
-        add(tile.occupied[place + i], increment.occupied);
-        add(tile.unknown[place + i], increment.unknown);
+        evidence::FixedLogCommonality::accumulate(tile.empty[place + i], increment.empty);
+        evidence::FixedLogCommonality::accumulate(tile.occupied[place + i], increment.occupied);
+        evidence::FixedLogCommonality::accumulate(tile.unknown[place + i], increment.unknown);
       }
       column += count;
     });

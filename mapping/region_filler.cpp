@@ -15,10 +15,8 @@ namespace {
 
 using evidence::FixedLogCommonality;
 
-/// channel = max(channel + increment, floor), in a form that the compiler vectorises. Precondition: increment <= 0.
 void add_to_channel(std::int32_t* channel, int count, std::int32_t increment) {
-  const std::int32_t lowest = FixedLogCommonality::kFloor - increment;
-  for (int i = 0; i < count; ++i) channel[i] = std::max(channel[i], lowest) + increment;
+  for (int i = 0; i < count; ++i) FixedLogCommonality::accumulate(channel[i], increment);
 }
 
 }  // namespace
