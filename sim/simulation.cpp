@@ -11,6 +11,7 @@
 
 #include "sim/odometry_simulator.hpp"
 #include "sim/omni_renderer.hpp"
+#include "sim/passage.hpp"
 #include "sim/plan.hpp"
 #include "sim/random.hpp"
 #include "sim/range_simulator.hpp"
@@ -65,6 +66,13 @@ void check_number_of_readings(const World& world, const Trajectory& way) {
     throw std::invalid_argument("the drive takes " + std::to_string(way.duration_s()) + " s with " +
                                 std::to_string(readings) +
                                 " readings; expected at most 5 million: shorten the path, or lower the rates");
+}
+
+/// \throws std::invalid_argument where the robot would drive through a wall
+Trajectory drivable(const World& world) {
+  Trajectory way(world.path, world.drive);
+  if (const auto obstruction = find_obstruction(world, way)) throw std::invalid_argument(obstruction->what);
+  return way;
 }
 
 std::vector<Reading> schedule_all(const World& world, const Trajectory& way, std::uint64_t seed) {
@@ -137,7 +145,7 @@ struct Simulation::Parts {
   Parts(World the_world, std::uint64_t the_seed)
       : world(checked(std::move(the_world))),
         seed(the_seed),
-        way(world.path, world.drive),
+        way(drivable(world)),
         rig(calibrated_rig(world)),
         plan(draw_floor_plan(world, plan_height(world), seed)),
         start(told_start(world, way.pose_at(0.0), seed)),

@@ -211,6 +211,15 @@ TEST(Simulation, NeedsASensorAndAWay) {
   EXPECT_THROW(Simulation(world, 1), std::invalid_argument);
 }
 
+TEST(Simulation, DrivesThroughNoWall) {
+  World world = short_demo();
+  world.path[1].position = {0.7, 3.5};
+  EXPECT_THROW(Simulation(world, 1), std::invalid_argument);
+  world = short_demo();
+  world.robot_radius_m = 1.5;
+  EXPECT_THROW(Simulation(world, 1), std::invalid_argument);
+}
+
 TEST(Random, StreamsAreIndependentAndNormalIsNormal) {
   Random a(1, 2, 3), b(1, 2, 4), c(1, 2, 3);
   EXPECT_EQ(a.bits(), c.bits());
