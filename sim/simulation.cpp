@@ -4,10 +4,8 @@
 #include "sim/simulation.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <stdexcept>
-#include <thread>
 
 #include "sim/odometry_simulator.hpp"
 #include "sim/omni_renderer.hpp"
@@ -16,6 +14,7 @@
 #include "sim/random.hpp"
 #include "sim/range_simulator.hpp"
 #include "sim/sonar_simulator.hpp"
+#include "sim/together.hpp"
 #include "sim/trajectory.hpp"
 
 namespace credo::sim {
@@ -183,23 +182,19 @@ std::vector<geometry::Pose2> Simulation::Parts::exposures(double seconds) const 
   return poses;
 }
 
-/// Threads take the next image that nobody has; every image is a function of its index alone.
+/// Threads take the next image that nobody has; every image is a function of its index alone. What a thread throws, the
+/// caller gets.
 std::vector<Simulation::Parts::Picture> Simulation::Parts::render(std::span<const Reading> images, int threads,
                                                                   bool verticals) const {
   std::vector<Picture> pictures(images.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
+  run_together(threads, images.size(), [&](NextIndex& next) {
     OmniRenderer::Workspace workspace(world);
-    for (std::size_t i = next++; i < images.size(); i = next++) {
-      const double seconds = seconds_of(images[i].time);
-      pictures[i].pixels = renderer->render(exposures(seconds), images[i].index, workspace);
-      if (verticals) pictures[i].verticals = renderer->true_verticals(way.pose_at(seconds), workspace);
+    while (const auto i = next()) {
+      const double seconds = seconds_of(images[*i].time);
+      pictures[*i].pixels = renderer->render(exposures(seconds), images[*i].index, workspace);
+      if (verticals) pictures[*i].verticals = renderer->true_verticals(way.pose_at(seconds), workspace);
     }
-  };
-  std::vector<std::jthread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
-  work();
-  helpers.clear();
+  });
   return pictures;
 }
 
