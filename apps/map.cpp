@@ -95,28 +95,50 @@ std::vector<Part> parts_of_dataset(const MapOptions& o, std::string& poses) {
   return parts;
 }
 
-/// Each laser of the log from its own poses, so that nothing need be known of how it is mounted.
+[[noreturn]] void fail_without_readings(const MapOptions& o) {
+  throw std::runtime_error(o.source + ": holds no reading of the sensors that --sensors asks for");
+}
+
+/// The way of the robot itself, for readings that bring no pose of their own: by the first laser, else by odometry.
+sensors::MotionPath base_path(const datasets::CarmenLog& log) {
+  if (log.laser_poses.empty() || log.laser_poses.front().empty()) return sensors::MotionPath(log.odometry);
+  const geometry::Pose2 T_laser_base = log.rig.range_finders.front().T_base_sensor.inverse();
+  std::vector<datasets::TimedPose> poses = log.laser_poses.front();
+  for (datasets::TimedPose& row : poses) row.pose = row.pose * T_laser_base;
+  return path_of(poses);
+}
+
+/// Each laser of the log from its own poses, so that nothing need be known of how it is mounted; the sonar along the
+/// way of the robot.
 std::vector<Part> parts_of_carmen(const MapOptions& o, std::string& poses) {
   datasets::CarmenLog log = datasets::read_carmen(o.source);
   for (const std::string& remark : log.remarks) say_warning(remark);
+  if (!wants(o, "range")) std::fill(log.scans.begin(), log.scans.end(), std::vector<sensors::RangeScan>{});
+  if (!wants(o, "sonar")) std::fill(log.sonar.begin(), log.sonar.end(), std::vector<sensors::SonarSweep>{});
+  std::vector<sensors::SonarSweep> sweeps = joined(log.sonar);
   std::vector<Part> parts;
   if (!o.poses.empty()) {
     poses = o.poses;
     parts.push_back({.path = path_of(given_poses(o.poses)),
                      .rig = log.rig,
                      .scans = joined(log.scans),
-                     .sweeps = joined(log.sonar)});
+                     .sweeps = std::move(sweeps)});
     return parts;
   }
   poses = "the poses of the log";
+  bool any = !sweeps.empty();
+  if (sensors::MotionPath path = base_path(log); !sweeps.empty() && !path.empty())
+    parts.push_back({.path = std::move(path), .rig = log.rig, .scans = {}, .sweeps = std::move(sweeps)});
   for (std::size_t i = 0; i < log.scans.size(); ++i) {
-    if (log.laser_poses[i].empty()) continue;
+    any = any || !log.scans[i].empty();
+    if (log.scans[i].empty() || log.laser_poses[i].empty()) continue;
     Part part{.path = path_of(log.laser_poses[i]), .rig = log.rig, .scans = std::move(log.scans[i]), .sweeps = {}};
     part.rig.range_finders[i].T_base_sensor = {};
     parts.push_back(std::move(part));
   }
+  if (!any) fail_without_readings(o);
   if (parts.empty())
-    throw std::runtime_error(o.source + ": no scan of this log carries a pose: give them with --poses FILE");
+    throw std::runtime_error(o.source + ": no reading of this log carries a pose: give them with --poses FILE");
   return parts;
 }
 
@@ -158,7 +180,7 @@ struct TimeSpan {
 void check_overlap(const MapOptions& o, const std::vector<Part>& parts, const mapping::TrajectoryMap& map,
                    const std::string& poses) {
   const std::int64_t placed = map.counts.scans + map.counts.sweeps, all = placed + map.without_pose;
-  if (all == 0) throw std::runtime_error(o.source + ": holds no reading of the sensors that --sensors asks for");
+  if (all == 0) fail_without_readings(o);
   TimeSpan readings, path;
   for (const Part& part : parts) {
     readings.cover(part.scans);

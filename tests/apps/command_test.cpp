@@ -294,6 +294,34 @@ TEST_F(Command, PosesOfAnotherDriveAreNoMap) {
   EXPECT_EQ(credo("map data --sensors camera --out out2").status, 2);
 }
 
+/// A laser and three transducers; the robot stands still in a corner.
+constexpr const char* kLogWithSonar =
+    "ODOM 0 0 0 0 0 0 1 host 1\nSONAR 0.5 3 1.2 1.4 2.5 0 0 0 0 0 1.57 0 0 -1.57 1.1 host 1.1\n"
+    "FLASER 4 1.5 1.4 1.3 1.2 0 0 0 0 0 0 1.2 host 1.2\n"
+    "ODOM 0 0 0 0 0 0 1.3 host 1.3\nFLASER 4 1.5 1.4 1.3 1.2 0 0 0 0 0 0 1.4 host 1.4\n";
+
+TEST_F(Command, OfALogOnlyTheSensorsAskedForAreMapped) {
+  write("log", kLogWithSonar);
+  const auto mapped = [&](const std::string& sensors) {
+    const Answer answer = credo("map log --force --out out --format json --sensors " + sensors);
+    EXPECT_EQ(answer.status, 0) << sensors << ": " << answer.error;
+    const json report = json::parse(answer.out, nullptr, false);
+    return answer.status == 0 ? std::pair(report["scans"].get<int>(), report["sonar_sweeps"].get<int>())
+                              : std::pair(-1, -1);
+  };
+  EXPECT_EQ(mapped("range"), std::pair(2, 0));
+  EXPECT_EQ(mapped("sonar"), std::pair(0, 1));
+  EXPECT_EQ(mapped("range,sonar"), std::pair(2, 1));
+  write("blind.log", "FLASER 4 1.5 1.4 1.3 1.2 0 0 0 0 0 0 1.2 host 1.2\n");
+  for (const char* more : {"", " --poses blind.tum"}) {
+    write("blind.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+    const Answer answer = credo("map blind.log --sensors sonar --out none" + std::string(more));
+    EXPECT_EQ(answer.status, 1) << more;
+    EXPECT_THAT(answer.error, HasSubstr("blind.log: holds no reading of the sensors")) << more;
+    EXPECT_FALSE(fs::exists(folder_ / "none")) << more;
+  }
+}
+
 TEST_F(Command, AResolutionTooFineForTheSensorsIsRefused) {
   write_small_world();
   write("small.yaml", std::regex_replace(read("small.yaml"), std::regex("opensimple,"), "opensimple, range_max: 5,"));
