@@ -13,6 +13,7 @@
 #include "apps/about.hpp"
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/map_extent.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "apps/picture_folder.hpp"
@@ -144,6 +145,9 @@ std::vector<Part> parts_of_carmen(const MapOptions& o, std::string& poses) {
 
 mapping::TrajectoryMap build(const MapOptions& o, const std::vector<Part>& parts) {
   mapping::TrajectoryMap map{.grid = grids::EvidentialGrid(o.params.mapper.georeference), .counts = {}};
+  Eigen::AlignedBox2d ground;
+  for (const Part& part : parts) ground.extend(seen_ground(part.path, part.rig, part.scans, part.sweeps, o.params));
+  require_map_fits(ground, o.params.mapper.georeference.resolution_m);
   Progress progress("mapping");
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto report = [&](double share) {

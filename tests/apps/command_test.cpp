@@ -360,4 +360,20 @@ TEST_F(Command, WithoutAFloorPlanPosesAreEgoMotionAndThereIsAMap) {
   EXPECT_TRUE(fs::exists(folder_ / "out/map.pgm"));
 }
 
+TEST_F(Command, AMapThatWouldOutgrowItsLimitIsRefusedBeforeTheWork) {
+  write_small_world();
+  write("small.yaml", std::regex_replace(std::regex_replace(read("small.yaml"), std::regex("outline: .*\n"),
+                                                            "outline: [[0, 0], [24, 0], [24, 6], [0, 6]]\n"),
+                                         std::regex("path: .*\n"), "path: [[1, 2], [23, 2], [23, 4], [1, 4]]\n"));
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  const std::string limited = "cd '" + folder_.string() +
+                              "' && ulimit -v 700000 && '" CREDO_COMMAND
+                              "' map data --resolution 0.001 --sensors range --out out/map 2>.error";
+  EXPECT_EQ(WEXITSTATUS(std::system(limited.c_str())), 1);
+  EXPECT_THAT(read(".error"), AllOf(HasSubstr("data: the readings are from "),
+                                    HasSubstr("67108864 cells that a map may have at a resolution of 0.001 m"),
+                                    HasSubstr("choose one of 0.002 m or coarser")));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
 }  // namespace
