@@ -115,7 +115,7 @@ TEST_F(Command, NumbersOfOptionsAreFiniteAndWithinTheirBounds) {
     EXPECT_THAT(answer.error, HasSubstr("expected a ")) << arguments;
   }
   EXPECT_FALSE(fs::exists(folder_ / "out"));
-  EXPECT_EQ(credo("evaluate ape ref.tum est.tum --fail_above rmse=nan").status, 1);
+  EXPECT_EQ(credo("evaluate ape ref.tum est.tum --fail_above rmse=nan").status, 2);
   EXPECT_EQ(credo("evaluate ape ref.tum est.tum --t_offset +0.001").status, 0);
 }
 
@@ -205,7 +205,12 @@ TEST_F(Command, JsonIsForMachinesAndTheGateFails) {
   EXPECT_EQ(ape["errors"].size(), 5u);
   EXPECT_EQ(credo("evaluate ape ref.tum est.tum --fail_above rmse=0.2").status, 0);
   EXPECT_EQ(credo("evaluate ape ref.tum est.tum --fail_above rmse=0.1").status, 1);
-  EXPECT_THAT(credo("evaluate ape ref.tum est.tum --fail_above mode=1").error, HasSubstr("STATISTIC=VALUE"));
+  for (const char* gate : {"mode=1", "rmse", "rmse=", "=1", "rmse=one", "''"}) {
+    const Answer answer = credo("evaluate ape ref.tum est.tum --fail_above " + std::string(gate));
+    EXPECT_EQ(answer.status, 2) << gate;
+    EXPECT_EQ(answer.out, "") << gate;
+    EXPECT_THAT(answer.error, HasSubstr("STATISTIC=VALUE")) << gate;
+  }
   const json traj = json::parse(credo("evaluate traj est.tum --ref ref.tum --format json").out);
   EXPECT_EQ(traj[0]["poses"], 5);
   EXPECT_NEAR(traj[0]["ape_rmse_m"].get<double>(), 0.141421, 1e-6);
