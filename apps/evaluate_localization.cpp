@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "apps/evaluate.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "apps/run_report.hpp"
 #include "apps/terminal.hpp"
@@ -32,8 +33,8 @@ void add_score(CLI::App& evaluate) {
       "  credo evaluate score datasets/office results/office\n"
       "  credo evaluate score truth.tum results/office --format json");
   auto o = std::make_shared<ScoreOptions>();
-  command->add_option("REF", o->reference, "a dataset folder, or a trajectory file")->required();
-  command->add_option("RESULT", o->result, "a results folder, or a localization.csv")->required();
+  command->add_option("REF", o->reference, "a dataset folder, or a trajectory file")->check(a_path())->required();
+  command->add_option("RESULT", o->result, "a results folder, or a localization.csv")->check(a_path())->required();
   add_format_option(*command, o->format);
   command->callback([o] {
     const Truth truth = read_truth(o->reference);
@@ -87,7 +88,9 @@ void add_nees(CLI::App& evaluate) {
       "  credo evaluate nees datasets/office results/office\n"
       "  credo evaluate nees datasets/a results/a datasets/b results/b    independent runs of the same drive");
   auto o = std::make_shared<NeesOptions>();
-  command->add_option("REF RESULT ...", o->paths, "dataset (or trajectory) and results, once for each run")->required();
+  command->add_option("REF RESULT ...", o->paths, "dataset (or trajectory) and results, once for each run")
+      ->check(a_path())
+      ->required();
   add_format_option(*command, o->format);
   command->callback([o] {
     if (o->paths.size() % 2 != 0)

@@ -88,8 +88,10 @@ void apply_gate(const std::string& text, const evaluation::Statistics& statistic
 }
 
 void add_pair_options(CLI::App& command, PairOptions& o) {
-  command.add_option("REF", o.reference, "the truth: TUM, KITTI, EuRoC csv, or a dataset folder")->required();
-  command.add_option("RESULT", o.result, "the estimate: the same, or a results folder")->required();
+  command.add_option("REF", o.reference, "the truth: TUM, KITTI, EuRoC csv, or a dataset folder")
+      ->check(a_path())
+      ->required();
+  command.add_option("RESULT", o.result, "the estimate: the same, or a results folder")->check(a_path())->required();
   command.add_option("-r,--pose_relation", o.relation, "what of the error pose counts")
       ->check(CLI::IsMember(kRelations))
       ->capture_default_str();
@@ -250,8 +252,8 @@ void add_traj(CLI::App& evaluate) {
   CLI::App* command = evaluate.add_subcommand("traj", "Length, duration and checks of trajectories.");
   command->footer("  credo evaluate traj results/a results/b --ref datasets/office");
   auto o = std::make_shared<TrajOptions>();
-  command->add_option("PATHS", o->paths, "trajectories, dataset or results folders")->required();
-  command->add_option("--ref", o->reference, "a reference to compare each with");
+  command->add_option("PATHS", o->paths, "trajectories, dataset or results folders")->check(a_path())->required();
+  command->add_option("--ref", o->reference, "a reference to compare each with")->check(a_path());
   command->add_option("--t_max_diff", o->association.t_max_diff_s, "largest difference in time of a match [s]")
       ->check(number_in(0.0, evaluation::AssociationParams::kLargest_s))
       ->capture_default_str();

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "apps/commands.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/acquisitions.hpp"
@@ -180,7 +181,7 @@ void add_info(CLI::App& app) {
     OutputFormat format;
   };
   auto o = std::make_shared<Options>();
-  command->add_option("PATH", o->path, "a folder or a file")->required();
+  command->add_option("PATH", o->path, "a folder or a file")->check(a_path())->required();
   add_format_option(*command, o->format);
   command->callback([o] {
     const ordered_json all = info(o->path);

@@ -263,10 +263,14 @@ void add_map(CLI::App& app) {
       "  credo map datasets/office --poses results/office/trajectory.tum --out results/office_map\n"
       "  credo map intel.log.gz --out results/intel --resolution 0.1 --pictures results/intel_pictures");
   auto o = std::make_shared<MapOptions>();
-  command->add_option("SOURCE", o->source, "a dataset folder, or a CARMEN log (plain or gzipped)")->required();
-  command->add_option("-o,--out", o->out, "folder for the map; default results/NAME_map");
-  command->add_option("--poses", o->poses,
-                      "a trajectory file, or groundtruth (default: ground truth; of a log, its own poses)");
+  command->add_option("SOURCE", o->source, "a dataset folder, or a CARMEN log (plain or gzipped)")
+      ->check(a_path())
+      ->required();
+  command->add_option("-o,--out", o->out, "folder for the map; default results/NAME_map")->check(a_path());
+  command
+      ->add_option("--poses", o->poses,
+                   "a trajectory file, or groundtruth (default: ground truth; of a log, its own poses)")
+      ->check(a_path());
   command->add_option("--sensors", o->sensors, "what to map with: range, sonar or both")
       ->delimiter(',')
       ->check(CLI::IsMember({"range", "sonar"}))
@@ -279,7 +283,7 @@ void add_map(CLI::App& app) {
                    "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
       ->check(CLI::IsMember({"normalized", "raw"}))
       ->capture_default_str();
-  command->add_option("--pictures", o->pictures, "folder for map.png");
+  command->add_option("--pictures", o->pictures, "folder for map.png")->check(a_path());
   command->add_flag("-f,--force", o->force, "replace a map that is already there");
   add_format_option(*command, o->format);
   command->callback([o] { execute(*o); });

@@ -130,8 +130,9 @@ void add_simulate(CLI::App& app) {
       "  credo simulate my_world.yaml --out datasets/mine --seed 7");
   auto options = std::make_shared<SimulateOptions>();
   command->add_option("WORLD", options->world, "a world file (YAML), or the name of a world that comes with credo")
+      ->check(a_path())
       ->required();
-  command->add_option("-o,--out", options->out, "folder for the dataset")->required();
+  command->add_option("-o,--out", options->out, "folder for the dataset")->check(a_path())->required();
   command->add_option("--seed", options->seed, "of all that is random; the same seed gives the same bytes")
       ->check(any_seed())
       ->capture_default_str();

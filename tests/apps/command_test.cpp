@@ -365,6 +365,29 @@ TEST_F(Command, WithoutAFloorPlanPosesAreEgoMotionAndThereIsAMap) {
   EXPECT_TRUE(fs::exists(folder_ / "out/map.pgm"));
 }
 
+TEST_F(Command, AnEmptyNameIsWrongUsage) {
+  for (const char* arguments : {"run ''", "run data --out ''", "run data --pictures ''", "map ''", "map data --out ''",
+                                "simulate ''", "simulate office --out ''", "demo --out ''", "info ''",
+                                "evaluate score '' out", "evaluate ape ref.tum ''", "evaluate map data ''"}) {
+    const Answer answer = credo(arguments);
+    EXPECT_EQ(answer.status, 2) << arguments;
+    EXPECT_THAT(answer.error, HasSubstr("found an empty name")) << arguments;
+  }
+}
+
+TEST_F(Command, ANameThatIsAPathBecomesAFolderOfThatName) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  const std::string yaml = read("data/dataset.yaml");
+  for (const auto& [name, folder] : {std::pair{"a/../../b", "results/a_.._.._b"}, {"..", "results/_.."}}) {
+    write("data/dataset.yaml",
+          std::regex_replace(yaml, std::regex("\nname: .*"), "\nname: \"" + std::string(name) + "\""));
+    const Answer answer = credo("run data");
+    EXPECT_EQ(answer.status, 0) << answer.error;
+    EXPECT_TRUE(fs::exists(folder_ / folder / "config.yaml")) << name;
+  }
+}
+
 TEST_F(Command, AMapThatWouldOutgrowItsLimitIsRefusedBeforeTheWork) {
   write_small_world();
   write("small.yaml", std::regex_replace(std::regex_replace(read("small.yaml"), std::regex("outline: .*\n"),
