@@ -42,7 +42,8 @@ fs::path find_world(const std::string& name) {
   for (const fs::path& folder : world_folders()) {
     if (fs::is_regular_file(folder / (name + ".yaml"))) return folder / (name + ".yaml");
     if (!fs::is_directory(folder)) continue;
-    for (const auto& entry : fs::directory_iterator(folder)) known.push_back(entry.path().stem().string());
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".yaml") known.push_back(entry.path().stem().string());
   }
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());

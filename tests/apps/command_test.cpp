@@ -388,6 +388,13 @@ TEST_F(Command, ANameThatIsAPathBecomesAFolderOfThatName) {
   }
 }
 
+TEST_F(Command, OnlyWorldsAreListedAsWorlds) {
+  const Answer answer = credo("simulate README --out out");
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_THAT(answer.error, AllOf(HasSubstr("demo"), HasSubstr("office"), testing::EndsWith("office\n")));
+  EXPECT_THAT(answer.error.substr(answer.error.find("worlds that")), Not(HasSubstr("README")));
+}
+
 TEST_F(Command, AMapThatWouldOutgrowItsLimitIsRefusedBeforeTheWork) {
   write_small_world();
   write("small.yaml", std::regex_replace(std::regex_replace(read("small.yaml"), std::regex("outline: .*\n"),
