@@ -49,6 +49,7 @@ ordered_json dataset_info(const fs::path& folder) {
   }
   if (!d.odometry.empty()) all.push_back(rows("odometry0", d.odometry));
   if (!d.truth.empty()) all.push_back(rows("groundtruth0", d.truth));
+  if (d.truth_map) (void)datasets::read_map(*d.truth_map);  // throws where it cannot be used
   ordered_json faults = ordered_json::array();
   for (const datasets::SensorLog& log : d.log) {
     if (log.below_range_min + log.above_range_max + log.negative + log.rows_without_value == 0) continue;

@@ -411,4 +411,17 @@ TEST_F(Command, AMapThatWouldOutgrowItsLimitIsRefusedBeforeTheWork) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
+TEST_F(Command, ATruncatedTrueMapIsFoundByInfoAndEvaluation) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  ASSERT_EQ(credo("map data --out map").status, 0);
+  fs::resize_file(folder_ / "data/truth_map.pgm", fs::file_size(folder_ / "data/truth_map.pgm") / 2);
+  for (const char* arguments : {"info data", "evaluate map data map"}) {
+    const Answer answer = credo(arguments);
+    EXPECT_EQ(answer.status, 1) << arguments;
+    EXPECT_THAT(answer.error, AllOf(StartsWith("credo: error: "), HasSubstr("truth_map.pgm: the picture is cut short")))
+        << arguments;
+  }
+}
+
 }  // namespace
