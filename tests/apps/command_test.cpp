@@ -424,4 +424,23 @@ TEST_F(Command, ATruncatedTrueMapIsFoundByInfoAndEvaluation) {
   }
 }
 
+TEST_F(Command, PosesRelativeToTheStartHaveNoScore) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  ASSERT_EQ(credo("run data --out good").status, 0);
+  std::string far;
+  for (int i = 0; i < 10000; ++i) far += std::to_string(1600000000.0 + 0.01 * i) + " 90 0 0 0 0 0 1\n";
+  write("far.tum", far);
+  const Answer elsewhere = credo("evaluate score far.tum good --format json");
+  EXPECT_EQ(elsewhere.status, 0) << elsewhere.error;
+  EXPECT_THAT(elsewhere.error, HasSubstr("is far.tum the truth of good?"));
+  EXPECT_EQ(credo("evaluate score data good").error, "");
+  fs::remove(folder_ / "data/floor_plan.yaml");
+  ASSERT_EQ(credo("run data --out relative").status, 0);
+  const Answer answer = credo("evaluate score data relative");
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_EQ(answer.out, "");
+  EXPECT_THAT(answer.error, AllOf(HasSubstr("relative: all acquisitions are initializing"), HasSubstr("evaluate rpe")));
+}
+
 }  // namespace
