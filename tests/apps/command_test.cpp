@@ -443,4 +443,11 @@ TEST_F(Command, PosesRelativeToTheStartHaveNoScore) {
   EXPECT_THAT(answer.error, AllOf(HasSubstr("relative: all acquisitions are initializing"), HasSubstr("evaluate rpe")));
 }
 
+TEST_F(Command, ARefusedRunLeavesNoFolder) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  EXPECT_EQ(credo("run data --resolution 9 --out new/newer/run").status, 1);
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
+}
+
 }  // namespace
