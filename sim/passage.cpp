@@ -14,6 +14,7 @@
 namespace credo::sim {
 namespace {
 
+using geometry::cross;
 using geometry::Segment;
 using Point = Eigen::Vector2d;
 
@@ -28,8 +29,6 @@ std::string metres(double value) {
   std::snprintf(text, sizeof text, "%.3g m", value);
   return text;
 }
-
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 bool cross_each_other(const Segment& s, const Segment& t) {
   const auto parts = [](const Segment& line, const Segment& ends) {

@@ -148,7 +148,7 @@ namespace {
 /// Whether going on to `to` from the end of a stretch leads straight on.
 bool continues(const geometry::Segment& stretch, const Eigen::Vector2d& to) {
   const Eigen::Vector2d a = stretch.b - stretch.a, b = to - stretch.b;
-  return a.norm() > 1e-9 && a.dot(b) > 0.0 && std::abs(a.x() * b.y() - a.y() * b.x()) < 1e-9 * a.norm() * b.norm();
+  return a.norm() > 1e-9 && a.dot(b) > 0.0 && std::abs(geometry::cross(a, b)) < 1e-9 * a.norm() * b.norm();
 }
 
 }  // namespace
