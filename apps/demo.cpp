@@ -74,6 +74,7 @@ void add_demo(CLI::App& app) {
       "  credo demo --out /tmp/demo --seed 2");
   auto options = std::make_shared<DemoOptions>();
   command->add_option("-o,--out", options->out, "folder for the dataset, the results and the pictures")
+      ->check(a_path())
       ->capture_default_str();
   command->add_option("--seed", options->seed, "of the simulation")->check(any_seed())->capture_default_str();
   command->callback([options] { demo(*options); });

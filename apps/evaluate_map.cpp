@@ -52,8 +52,10 @@ void add_evaluate_map(CLI::App& evaluate) {
       "  credo evaluate map datasets/office results/office\n"
       "  credo evaluate map truth_map.yaml results/office --tolerance 2");
   auto o = std::make_shared<MapScoreOptions>();
-  command->add_option("TRUTH", o->truth, "a dataset folder, a map_server YAML, or a floor_plan.yaml")->required();
-  command->add_option("RESULT", o->result, "a folder with map.yaml and map_belief.tiff")->required();
+  command->add_option("TRUTH", o->truth, "a dataset folder, a map_server YAML, or a floor_plan.yaml")
+      ->check(a_path())
+      ->required();
+  command->add_option("RESULT", o->result, "a folder with map.yaml and map_belief.tiff")->check(a_path())->required();
   command->add_option("--tolerance", o->params.tolerance_cells, "at walls, in cells")
       ->check(number_in(0, 100))
       ->capture_default_str();

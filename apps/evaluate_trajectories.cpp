@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "apps/evaluate.hpp"
@@ -47,9 +48,50 @@ struct RpeOptions : PairOptions {
   evaluation::RelativeErrorParams params;
 };
 
+std::map<std::string, double> by_name(const evaluation::Statistics& s) {
+  return {{"max", s.max},   {"mean", s.mean}, {"median", s.median}, {"min", s.min},
+          {"rmse", s.rmse}, {"sse", s.sse},   {"std", s.std}};
+}
+
+/// What --fail_above says.
+struct Gate {
+  std::string statistic;
+  double limit = 0.0;
+};
+
+std::optional<Gate> parse_gate(const std::string& text) {
+  const std::size_t cut = text.find('=');
+  if (cut == std::string::npos) return std::nullopt;
+  Gate gate{.statistic = text.substr(0, cut)};
+  if (!by_name({}).contains(gate.statistic) || !parse(text.substr(cut + 1), gate.limit) || !std::isfinite(gate.limit))
+    return std::nullopt;
+  return gate;
+}
+
+CLI::Validator a_gate() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        if (parse_gate(text)) return "";
+        return "expected STATISTIC=VALUE with one of max, mean, median, min, rmse, sse, std and a finite number, found "
+               "'" +
+               text + "'";
+      },
+      "");
+}
+
+void apply_gate(const std::string& text, const evaluation::Statistics& statistics) {
+  const std::optional<Gate> gate = parse_gate(text);
+  if (!gate) return;
+  const double found = by_name(statistics).at(gate->statistic);
+  if (!(found <= gate->limit))
+    throw std::runtime_error("--fail_above " + text + ": " + gate->statistic + " is " + std::to_string(found));
+}
+
 void add_pair_options(CLI::App& command, PairOptions& o) {
-  command.add_option("REF", o.reference, "the truth: TUM, KITTI, EuRoC csv, or a dataset folder")->required();
-  command.add_option("RESULT", o.result, "the estimate: the same, or a results folder")->required();
+  command.add_option("REF", o.reference, "the truth: TUM, KITTI, EuRoC csv, or a dataset folder")
+      ->check(a_path())
+      ->required();
+  command.add_option("RESULT", o.result, "the estimate: the same, or a results folder")->check(a_path())->required();
   command.add_option("-r,--pose_relation", o.relation, "what of the error pose counts")
       ->check(CLI::IsMember(kRelations))
       ->capture_default_str();
@@ -66,29 +108,9 @@ void add_pair_options(CLI::App& command, PairOptions& o) {
       ->check(number_in(-evaluation::AssociationParams::kLargest_s, evaluation::AssociationParams::kLargest_s))
       ->capture_default_str();
   command.add_flag("--interpolate", o.association.interpolate, "interpolate the reference to the times of the result");
-  command.add_option("--fail_above", o.fail_above, "STATISTIC=VALUE: exit with an error if it is above, e.g. rmse=0.1");
+  command.add_option("--fail_above", o.fail_above, "STATISTIC=VALUE: exit with an error if it is above, e.g. rmse=0.1")
+      ->check(a_gate());
   add_format_option(command, o.format);
-}
-
-std::map<std::string, double> by_name(const evaluation::Statistics& s) {
-  return {{"max", s.max},   {"mean", s.mean}, {"median", s.median}, {"min", s.min},
-          {"rmse", s.rmse}, {"sse", s.sse},   {"std", s.std}};
-}
-
-void apply_gate(const std::string& gate, const evaluation::Statistics& statistics) {
-  if (gate.empty()) return;
-  const auto all = by_name(statistics);
-  const std::size_t cut = std::min(gate.find('='), gate.size() - 1);
-  const auto found = all.find(gate.substr(0, cut));
-  double limit = 0.0;
-  if (found == all.end() || !parse(gate.substr(cut + 1), limit) || !std::isfinite(limit)) {
-    throw std::runtime_error("--fail_above " + gate +
-                             ": expected STATISTIC=VALUE with one of max, mean, median, min, rmse, sse, "
-                             "std and a finite number");
-  }
-  if (!(found->second <= limit)) {
-    throw std::runtime_error("--fail_above " + gate + ": " + found->first + " is " + std::to_string(found->second));
-  }
 }
 
 /// A number of seconds as evo prints it: 0.0, 0.01.
@@ -230,8 +252,8 @@ void add_traj(CLI::App& evaluate) {
   CLI::App* command = evaluate.add_subcommand("traj", "Length, duration and checks of trajectories.");
   command->footer("  credo evaluate traj results/a results/b --ref datasets/office");
   auto o = std::make_shared<TrajOptions>();
-  command->add_option("PATHS", o->paths, "trajectories, dataset or results folders")->required();
-  command->add_option("--ref", o->reference, "a reference to compare each with");
+  command->add_option("PATHS", o->paths, "trajectories, dataset or results folders")->check(a_path())->required();
+  command->add_option("--ref", o->reference, "a reference to compare each with")->check(a_path());
   command->add_option("--t_max_diff", o->association.t_max_diff_s, "largest difference in time of a match [s]")
       ->check(number_in(0.0, evaluation::AssociationParams::kLargest_s))
       ->capture_default_str();

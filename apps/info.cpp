@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "apps/commands.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/acquisitions.hpp"
@@ -48,6 +49,7 @@ ordered_json dataset_info(const fs::path& folder) {
   }
   if (!d.odometry.empty()) all.push_back(rows("odometry0", d.odometry));
   if (!d.truth.empty()) all.push_back(rows("groundtruth0", d.truth));
+  if (d.truth_map) (void)datasets::read_map(*d.truth_map);  // throws where it cannot be used
   ordered_json faults = ordered_json::array();
   for (const datasets::SensorLog& log : d.log) {
     if (log.below_range_min + log.above_range_max + log.negative + log.rows_without_value == 0) continue;
@@ -180,7 +182,7 @@ void add_info(CLI::App& app) {
     OutputFormat format;
   };
   auto o = std::make_shared<Options>();
-  command->add_option("PATH", o->path, "a folder or a file")->required();
+  command->add_option("PATH", o->path, "a folder or a file")->check(a_path())->required();
   add_format_option(*command, o->format);
   command->callback([o] {
     const ordered_json all = info(o->path);

@@ -13,6 +13,7 @@
 #include "apps/about.hpp"
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/map_extent.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "apps/picture_folder.hpp"
@@ -95,33 +96,58 @@ std::vector<Part> parts_of_dataset(const MapOptions& o, std::string& poses) {
   return parts;
 }
 
-/// Each laser of the log from its own poses, so that nothing need be known of how it is mounted.
+[[noreturn]] void fail_without_readings(const MapOptions& o) {
+  throw std::runtime_error(o.source + ": holds no reading of the sensors that --sensors asks for");
+}
+
+/// The way of the robot itself, for readings that bring no pose of their own: by the first laser, else by odometry.
+sensors::MotionPath base_path(const datasets::CarmenLog& log) {
+  if (log.laser_poses.empty() || log.laser_poses.front().empty()) return sensors::MotionPath(log.odometry);
+  const geometry::Pose2 T_laser_base = log.rig.range_finders.front().T_base_sensor.inverse();
+  std::vector<datasets::TimedPose> poses = log.laser_poses.front();
+  for (datasets::TimedPose& row : poses) row.pose = row.pose * T_laser_base;
+  return path_of(poses);
+}
+
+/// Each laser of the log from its own poses, so that nothing need be known of how it is mounted; the sonar along the
+/// way of the robot.
 std::vector<Part> parts_of_carmen(const MapOptions& o, std::string& poses) {
   datasets::CarmenLog log = datasets::read_carmen(o.source);
   for (const std::string& remark : log.remarks) say_warning(remark);
+  if (!wants(o, "range")) std::fill(log.scans.begin(), log.scans.end(), std::vector<sensors::RangeScan>{});
+  if (!wants(o, "sonar")) std::fill(log.sonar.begin(), log.sonar.end(), std::vector<sensors::SonarSweep>{});
+  std::vector<sensors::SonarSweep> sweeps = joined(log.sonar);
   std::vector<Part> parts;
   if (!o.poses.empty()) {
     poses = o.poses;
     parts.push_back({.path = path_of(given_poses(o.poses)),
                      .rig = log.rig,
                      .scans = joined(log.scans),
-                     .sweeps = joined(log.sonar)});
+                     .sweeps = std::move(sweeps)});
     return parts;
   }
   poses = "the poses of the log";
+  bool any = !sweeps.empty();
+  if (sensors::MotionPath path = base_path(log); !sweeps.empty() && !path.empty())
+    parts.push_back({.path = std::move(path), .rig = log.rig, .scans = {}, .sweeps = std::move(sweeps)});
   for (std::size_t i = 0; i < log.scans.size(); ++i) {
-    if (log.laser_poses[i].empty()) continue;
+    any = any || !log.scans[i].empty();
+    if (log.scans[i].empty() || log.laser_poses[i].empty()) continue;
     Part part{.path = path_of(log.laser_poses[i]), .rig = log.rig, .scans = std::move(log.scans[i]), .sweeps = {}};
     part.rig.range_finders[i].T_base_sensor = {};
     parts.push_back(std::move(part));
   }
+  if (!any) fail_without_readings(o);
   if (parts.empty())
-    throw std::runtime_error(o.source + ": no scan of this log carries a pose: give them with --poses FILE");
+    throw std::runtime_error(o.source + ": no reading of this log carries a pose: give them with --poses FILE");
   return parts;
 }
 
 mapping::TrajectoryMap build(const MapOptions& o, const std::vector<Part>& parts) {
   mapping::TrajectoryMap map{.grid = grids::EvidentialGrid(o.params.mapper.georeference), .counts = {}};
+  Eigen::AlignedBox2d ground;
+  for (const Part& part : parts) ground.extend(seen_ground(part.path, part.rig, part.scans, part.sweeps, o.params));
+  require_map_fits(ground, o.params.mapper.georeference.resolution_m);
   Progress progress("mapping");
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto report = [&](double share) {
@@ -158,7 +184,7 @@ struct TimeSpan {
 void check_overlap(const MapOptions& o, const std::vector<Part>& parts, const mapping::TrajectoryMap& map,
                    const std::string& poses) {
   const std::int64_t placed = map.counts.scans + map.counts.sweeps, all = placed + map.without_pose;
-  if (all == 0) throw std::runtime_error(o.source + ": holds no reading of the sensors that --sensors asks for");
+  if (all == 0) fail_without_readings(o);
   TimeSpan readings, path;
   for (const Part& part : parts) {
     readings.cover(part.scans);
@@ -237,10 +263,14 @@ void add_map(CLI::App& app) {
       "  credo map datasets/office --poses results/office/trajectory.tum --out results/office_map\n"
       "  credo map intel.log.gz --out results/intel --resolution 0.1 --pictures results/intel_pictures");
   auto o = std::make_shared<MapOptions>();
-  command->add_option("SOURCE", o->source, "a dataset folder, or a CARMEN log (plain or gzipped)")->required();
-  command->add_option("-o,--out", o->out, "folder for the map; default results/NAME_map");
-  command->add_option("--poses", o->poses,
-                      "a trajectory file, or groundtruth (default: ground truth; of a log, its own poses)");
+  command->add_option("SOURCE", o->source, "a dataset folder, or a CARMEN log (plain or gzipped)")
+      ->check(a_path())
+      ->required();
+  command->add_option("-o,--out", o->out, "folder for the map; default results/NAME_map")->check(a_path());
+  command
+      ->add_option("--poses", o->poses,
+                   "a trajectory file, or groundtruth (default: ground truth; of a log, its own poses)")
+      ->check(a_path());
   command->add_option("--sensors", o->sensors, "what to map with: range, sonar or both")
       ->delimiter(',')
       ->check(CLI::IsMember({"range", "sonar"}))
@@ -253,7 +283,7 @@ void add_map(CLI::App& app) {
                    "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
       ->check(CLI::IsMember({"normalized", "raw"}))
       ->capture_default_str();
-  command->add_option("--pictures", o->pictures, "folder for map.png");
+  command->add_option("--pictures", o->pictures, "folder for map.png")->check(a_path());
   command->add_flag("-f,--force", o->force, "replace a map that is already there");
   add_format_option(*command, o->format);
   command->callback([o] { execute(*o); });

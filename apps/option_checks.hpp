@@ -38,6 +38,15 @@ template <typename Number>
       range);
 }
 
+/// A check of a path. CLI11 alone takes "" for one.
+[[nodiscard]] inline CLI::Validator a_path() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        return text.empty() ? "expected a file or a folder, found an empty name" : "";
+      },
+      "");
+}
+
 /// Every seed is as good as any other.
 [[nodiscard]] inline CLI::Validator any_seed() {
   return number_in<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max());

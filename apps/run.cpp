@@ -3,6 +3,7 @@
 
 #include "apps/run.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -48,10 +49,20 @@ void execute(const RunOptions& options, const OutputFormat& format) {
   if (!options.pictures.empty()) std::printf("pictures: %s\n", options.pictures.c_str());
 }
 
+/// The name of a dataset as that of a folder: what could lead elsewhere becomes '_'.
+std::string folder_name(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' '; },
+      '_');
+  if (name.empty() || name.front() == '.') name.insert(0, "_");
+  constexpr std::size_t kLongest = 200;  // bytes; file systems take 255
+  return name.substr(0, kLongest);
+}
+
 }  // namespace
 
 Outcome run_and_write(const datasets::Dataset& dataset, const RunOptions& options, fs::path& out) {
-  out = options.out.empty() ? fs::path("results") / dataset.header.name : fs::path(options.out);
+  out = options.out.empty() ? fs::path("results") / folder_name(dataset.header.name) : fs::path(options.out);
   const PipelineParams params = params_of(options);
   const Interruptible interruptible;
   results::ResultsWriter writer(out, options.force);
@@ -90,12 +101,13 @@ void add_run(CLI::App& app) {
       "  credo run datasets/office --format json --force | jq .score.mean_position_m");
   auto options = std::make_shared<RunOptions>();
   auto format = std::make_shared<OutputFormat>();
-  command->add_option("DATASET", options->dataset, "folder with a dataset.yaml")->required();
-  command->add_option("-o,--out", options->out, "folder for the results; default results/NAME");
+  command->add_option("DATASET", options->dataset, "folder with a dataset.yaml")->check(a_path())->required();
+  command->add_option("-o,--out", options->out, "folder for the results; default results/NAME")->check(a_path());
   command->add_option("--method", options->method, "the paper's method with its absolute breakpoints, or the default")
       ->check(CLI::IsMember({"default", "paper"}))
       ->capture_default_str();
-  command->add_option("--pictures", options->pictures, "folder for pictures of some acquisitions and of the whole run");
+  command->add_option("--pictures", options->pictures, "folder for pictures of some acquisitions and of the whole run")
+      ->check(a_path());
   command->add_option("--moments", options->picture_moments, "how many acquisitions are drawn")
       ->check(number_in(0, 100'000))
       ->capture_default_str();

@@ -42,7 +42,8 @@ fs::path find_world(const std::string& name) {
   for (const fs::path& folder : world_folders()) {
     if (fs::is_regular_file(folder / (name + ".yaml"))) return folder / (name + ".yaml");
     if (!fs::is_directory(folder)) continue;
-    for (const auto& entry : fs::directory_iterator(folder)) known.push_back(entry.path().stem().string());
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".yaml") known.push_back(entry.path().stem().string());
   }
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
@@ -130,8 +131,9 @@ void add_simulate(CLI::App& app) {
       "  credo simulate my_world.yaml --out datasets/mine --seed 7");
   auto options = std::make_shared<SimulateOptions>();
   command->add_option("WORLD", options->world, "a world file (YAML), or the name of a world that comes with credo")
+      ->check(a_path())
       ->required();
-  command->add_option("-o,--out", options->out, "folder for the dataset")->required();
+  command->add_option("-o,--out", options->out, "folder for the dataset")->check(a_path())->required();
   command->add_option("--seed", options->seed, "of all that is random; the same seed gives the same bytes")
       ->check(any_seed())
       ->capture_default_str();

@@ -186,8 +186,8 @@ sensors::Acquisition Acquisitions::read(std::size_t index) const {
       by_camera ? &dataset_->images[rows_[index]] : nearest_row(dataset_->images, acquisition.time, within);
   if (image != nullptr && !image->file.empty()) {
     const sensors::OmniCamera& camera = *dataset_->header.rig.camera;
-    acquisition.image =
-        sensors::OmniImage{image->time, read_grey_image(image->file, camera.width_px, camera.height_px)};
+    const auto read = [&] { return read_grey_image(image->file, camera.width_px, camera.height_px); };
+    acquisition.image = sensors::OmniImage{image->time, with_row(image->listed_in, image->line, read)};
   }
   if (!dataset_->scans.empty()) {
     const sensors::RangeScan* scan = nearest_row(dataset_->scans.front(), acquisition.time, within);

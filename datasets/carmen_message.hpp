@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "datasets/format_error.hpp"
+#include "datasets/number_text.hpp"
 #include "datasets/text_file.hpp"
 #include "datasets/trajectory.hpp"
 #include "geometry/pose.hpp"
@@ -50,9 +51,11 @@ class Message {
   }
   [[nodiscard]] int count() {
     const double value = number();
-    if (!(value >= 1.0 && value <= kLargestCount) || value != std::floor(value))
-      fail("expected how many readings follow, 1 to " + std::to_string(kLargestCount) + ", found " +
-           std::to_string(value));
+    if (!(value >= 1.0 && value <= kLargestCount) || value != std::floor(value)) {
+      std::string found;
+      append_shortest(found, value);
+      fail("expected how many readings follow, 1 to " + std::to_string(kLargestCount) + ", found " + found);
+    }
     return static_cast<int>(value);
   }
   [[nodiscard]] geometry::Pose2 pose() {

@@ -143,7 +143,9 @@ void read_cameras(const fs::path& folder, Dataset& dataset) {
         if (!fs::exists(image.file))
           table.fail("filename: expected an image of the folder data, found " + image.file.string() +
                      ", which is not there");
-        check_image_file(image.file, camera.width_px, camera.height_px);
+        image.listed_in = folder / name / "data.csv";
+        image.line = table.line();
+        with_row(image.listed_in, image.line, [&] { check_image_file(image.file, camera.width_px, camera.height_px); });
       }
       ++(image.file.empty() ? log.rows_without_value : log.rows);
       images.push_back(std::move(image));

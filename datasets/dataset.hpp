@@ -45,6 +45,8 @@ struct Event {
 struct ImageFile {
   sensors::Timestamp time = 0;
   std::filesystem::path file;  ///< empty: no measurement
+  std::filesystem::path listed_in = {};
+  int line = 0;  ///< of `listed_in`
 };
 
 /// What a dataset says of itself and of the robot: all but the rows.

@@ -5,6 +5,9 @@
 
 #include <zlib.h>
 
+#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -53,6 +56,7 @@ void check_png(const std::filesystem::path& file, std::string_view head, std::st
 /// Walks through the chunks of a PNG, so that damage is found by their checksums and not complained about by libpng on
 /// the standard error stream.
 void check_png_chunks(const std::filesystem::path& file, std::string_view bytes) {
+  if (!bytes.ends_with(kPngEnd)) fail_truncated(file);
   constexpr std::size_t kFrame = 12;  // length, name and checksum
   for (std::size_t at = kPngSignature.size(); at < bytes.size();) {
     const std::size_t left = bytes.size() - at;
@@ -66,7 +70,43 @@ void check_png_chunks(const std::filesystem::path& file, std::string_view bytes)
   }
 }
 
+/// The next number of the header of a PGM; comments are skipped. Zero where there is none.
+std::uint64_t header_number(std::string_view& left) {
+  while (!left.empty()) {
+    if (left.front() == '#')
+      left.remove_prefix(std::min(left.find('\n'), left.size()));
+    else if (std::isspace(static_cast<unsigned char>(left.front())) != 0)
+      left.remove_prefix(1);
+    else
+      break;
+  }
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(left.data(), left.data() + left.size(), value);
+  left.remove_prefix(static_cast<std::size_t>(end - left.data()));
+  constexpr std::uint64_t kLargest = 1 << 24;
+  return error == std::errc{} && value <= kLargest ? value : 0;
+}
+
+/// A binary PGM or PPM (P5, P6): "P5 width height largest", one space, and the pixels.
+void check_pnm_size(const std::filesystem::path& file, std::string_view bytes) {
+  std::string_view left = bytes.substr(2);
+  const std::uint64_t width = header_number(left), height = header_number(left), largest = header_number(left);
+  const std::uint64_t channels = bytes.starts_with("P6") ? 3 : 1;
+  const std::uint64_t expected = width * height * channels * (largest > 255 ? 2 : 1);
+  const std::uint64_t found = left.empty() ? 0 : left.size() - 1;
+  if (expected == 0) throw FormatError(file, 0, "the header of this picture is damaged; expected a whole PGM or PPM");
+  if (found < expected)
+    throw FormatError(file, 0,
+                      "the picture is cut short: it has " + std::to_string(found) + " of " + std::to_string(expected) +
+                          " bytes; expected a whole PGM or PPM");
+}
+
 }  // namespace
+
+void check_whole(const std::filesystem::path& file, std::string_view bytes) {
+  if (bytes.starts_with(kPngSignature)) check_png_chunks(file, bytes);
+  if (bytes.starts_with("P5") || bytes.starts_with("P6")) check_pnm_size(file, bytes);
+}
 
 void check_image_file(const std::filesystem::path& file, int width_px, int height_px) {
   std::error_code error;
@@ -87,7 +127,7 @@ cv::Mat read_grey_image(const std::filesystem::path& file, int width_px, int hei
   std::string bytes = read_binary_file(file);
   if (bytes.empty()) throw FormatError(file, 0, "is empty; expected an image");
   check_png(file, bytes, bytes, width_px, height_px);
-  if (bytes.starts_with(kPngSignature)) check_png_chunks(file, bytes);
+  check_whole(file, bytes);
   const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
   cv::Mat image;
   try {

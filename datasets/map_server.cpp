@@ -11,6 +11,7 @@
 
 #include "datasets/checked_yaml.hpp"
 #include "datasets/format_error.hpp"
+#include "datasets/image_file.hpp"
 #include "datasets/number_text.hpp"
 #include "datasets/text_file.hpp"
 
@@ -92,6 +93,7 @@ Rules read_rules(const CheckedMap& keys) {
 
 cv::Mat read_picture(const std::filesystem::path& file) {
   const std::string bytes = read_binary_file(file);
+  check_whole(file, bytes);
   cv::Mat picture;
   if (!bytes.empty()) {
     const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));

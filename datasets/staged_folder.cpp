@@ -59,6 +59,14 @@ StagedFolder::~StagedFolder() {
   std::error_code ignored;
   if (!committed_) fs::remove_all(working_, ignored);
   unlock(lock_);
+  if (!committed_) remove_made_above();
+}
+
+/// Only what is empty: another one may have put something there.
+void StagedFolder::remove_made_above() {
+  std::error_code error;
+  for (const fs::path& folder : made_above_)
+    if (!fs::remove(folder, error) || error) return;
 }
 
 void StagedFolder::check_target() const {
@@ -71,9 +79,14 @@ void StagedFolder::make_working_folder() {
   std::error_code error;
   unlock(lock(working_));  // of a process that died: nobody else holds it
   fs::remove_all(working_, error);
-  if (!fs::create_directories(working_, error) || error)
+  for (fs::path above = working_.parent_path(); !fs::exists(above, error) && above.has_relative_path();
+       above = above.parent_path())
+    made_above_.push_back(above);
+  if (!fs::create_directories(working_, error) || error) {
+    remove_made_above();
     throw std::runtime_error(target_.string() + ": cannot be made: " +
                              (error ? error.message() : "its place is taken") + ": check the path and its permissions");
+  }
   lock_ = lock(working_);
 }
 

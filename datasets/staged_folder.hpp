@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 namespace credo::datasets {
 
@@ -20,7 +21,7 @@ class StagedFolder {
   /// \param require_replaceable  is asked where the target is there, and no empty folder, now and before it is replaced
   /// \throws std::runtime_error if the folder cannot be made, or another process is writing to the same place
   StagedFolder(std::filesystem::path target, RequireReplaceable require_replaceable);
-  /// Removes what was not committed.
+  /// Removes what was not committed, and the folders above that were made for it.
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
@@ -35,8 +36,10 @@ class StagedFolder {
  private:
   void check_target() const;
   void make_working_folder();
+  void remove_made_above();
 
   std::filesystem::path target_, working_;
+  std::vector<std::filesystem::path> made_above_;  ///< the innermost first
   RequireReplaceable require_replaceable_;
   int lock_ = -1;  ///< held on the working folder as long as this process lives
   bool committed_ = false;

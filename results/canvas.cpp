@@ -46,7 +46,7 @@ Color mixed(Color a, Color b, double share) {
 Color color_of(perception::PrimitiveType type) {
   switch (type) {
     case perception::PrimitiveType::kCorner: return colors::kPurple;
-    case perception::PrimitiveType::kEdge: return colors::kBlue;
+    case perception::PrimitiveType::kEdge: return colors::kSky;  // blue is the estimate
     case perception::PrimitiveType::kWall: return colors::kOrange;
     case perception::PrimitiveType::kOther: return colors::kYellow;
   }

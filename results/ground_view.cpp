@@ -44,9 +44,9 @@ void GroundView::scale_bar(Canvas& canvas) const {
   const std::string label =
       step >= 1.0 ? tick_label(step, step) + " m" : tick_label(100.0 * step, 100.0 * step) + " cm";
   const double room = std::max(pixels(step), text_width(label, 8.5));
-  const Point end{opposite_.x() - 12.0 - 0.5 * (room - pixels(step)), opposite_.y() - 10.0},
-      start{end.x() - pixels(step), end.y()};
-  const double middle = 0.5 * (start.x() + end.x());
+  // In the corner; in the middle where the box is hardly wider than the bar.
+  const double middle = std::max(opposite_.x() - 12.0 - 0.5 * room, std::min(centre_.x(), opposite_.x() - 0.5 * room));
+  const Point end{middle + 0.5 * pixels(step), opposite_.y() - 10.0}, start{end.x() - pixels(step), end.y()};
   canvas.box({middle - 0.5 * room - 6.0, end.y() - 22.0}, {middle + 0.5 * room + 6.0, end.y() + 7.0}, colors::kPaper,
              0.85);
   canvas.line(start, end, colors::kInk, 1.6);

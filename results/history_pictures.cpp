@@ -31,7 +31,7 @@ std::vector<Color> statuses(std::span<const Moment> history) {
   return result;
 }
 
-/// One component of the error with the band that it should stay in.
+/// One component of the error with the band that it should stay in. [m], [deg]
 struct ErrorSeries {
   std::vector<double> error, low, high;
   void add(double e, double sigma) {
@@ -47,16 +47,17 @@ std::array<ErrorSeries, 3> errors(std::span<const Moment> history) {
     const geometry::PoseEstimate& estimate = m.localization.estimate;
     const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, estimate.covariance(i, i))); };
     const geometry::Pose2 truth = m.truth.value_or(geometry::Pose2{kNan, kNan, kNan});
-    series[0].add(100.0 * (estimate.pose.x - truth.x), 100.0 * sigma(0));
-    series[1].add(100.0 * (estimate.pose.y - truth.y), 100.0 * sigma(1));
+    series[0].add(estimate.pose.x - truth.x, sigma(0));
+    series[1].add(estimate.pose.y - truth.y, sigma(1));
     const double heading = m.truth ? geometry::angle_difference(estimate.pose.theta, truth.theta) : kNan;
     series[2].add(geometry::to_degrees(heading), geometry::to_degrees(sigma(2)));
   }
   return series;
 }
 
-/// Limits that show the errors and most of the bands, so that one wide band does not flatten all the rest.
-std::pair<double, double> limits(const ErrorSeries& s) {
+/// Limits -reach..reach that show the errors and most of the bands, so that one wide band does not flatten all the
+/// rest.
+double reach_of(const ErrorSeries& s) {
   double largest = 1e-6;
   for (const double e : s.error) {
     if (std::isfinite(e)) largest = std::max(largest, std::abs(e));
@@ -65,8 +66,20 @@ std::pair<double, double> limits(const ErrorSeries& s) {
   std::sort(bands.begin(), bands.end());
   const double usual =
       bands.empty() ? 0.0 : bands[static_cast<std::size_t>(0.9 * static_cast<double>(bands.size() - 1))];
-  const double reach = 1.15 * std::max(largest, usual);
-  return {-reach, reach};
+  return 1.15 * std::max(largest, usual);
+}
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+/// What the band is, and how far it goes where the chart does not show it whole.
+std::string band_label(const ErrorSeries& s, double reach, bool degrees) {
+  const double widest = s.high.empty() ? 0.0 : *std::max_element(s.high.begin(), s.high.end());
+  if (!(widest > reach)) return "+-3 sigma";
+  return "+-3 sigma (cut off; up to " + (degrees ? tick_label(std::round(widest), 1.0) + " deg" : length_text(widest)) +
+         ")";
 }
 
 void status_legend(Canvas& canvas, double y) {
@@ -132,15 +145,21 @@ cv::Mat error_picture(std::span<const Moment> history) {
   const std::vector<double> t = times(history);
   const auto series = errors(history);
   const std::array<const char*, 3> titles{"Error in x", "Error in y", "Error in heading"};
+  const bool in_metres = std::max(reach_of(series[0]), reach_of(series[1])) >= 1.0;
   for (int i = 0; i < 3; ++i) {
     const ErrorSeries& s = series[static_cast<std::size_t>(i)];
-    const auto [low, high] = limits(s);
-    Plot plot(titles[static_cast<std::size_t>(i)], i == 2 ? "time [s]" : "", i == 2 ? "[deg]" : "[cm]");
-    plot.band(t, s.low, s.high, colors::kSky, "+-3 sigma", 0.4)
+    const bool degrees = i == 2;
+    const double reach = reach_of(s), unit = degrees || in_metres ? 1.0 : 100.0;
+    Plot plot(titles[static_cast<std::size_t>(i)], degrees ? "time [s]" : "",
+              degrees     ? "[deg]"
+              : in_metres ? "[m]"
+                          : "[cm]");
+    const std::vector<double> error = scaled(s.error, unit);
+    plot.band(t, scaled(s.low, unit), scaled(s.high, unit), colors::kSky, band_label(s, reach, degrees), 0.4)
         .level(0.0, colors::kMuted)
-        .line(t, s.error, colors::kBlue, "error")
-        .points(t, s.error, colors::kBlue)
-        .y_limits(low, high)
+        .line(t, error, colors::kBlue, "error")
+        .points(t, error, colors::kBlue)
+        .y_limits(-unit * reach, unit * reach)
         .strip(t, statuses(history));
     plot.draw(canvas, {0.0, static_cast<double>(i * kChart)}, {kWidth, (i + 1) * kChart + (i == 2 ? 22.0 : 0.0)});
   }

@@ -109,15 +109,22 @@ cv::Mat map_picture(const grids::EvidentialGrid& grid, std::span<const geometry:
                bottom_right);
   std::vector<Point> trail;
   for (const geometry::Pose2& pose : way) trail.push_back(view.at(pose.translation()));
+  const bool leaves = std::any_of(way.begin(), way.end(), [&](const geometry::Pose2& pose) {
+    return (pose.translation().array() < map.low.array()).any() ||
+           (pose.translation().array() > map.high.array()).any();
+  });
+  canvas.clip(top_left, bottom_right);
   canvas.polyline(trail, colors::kBlue, 1.4);
+  canvas.clip();
   canvas.frame(top_left, bottom_right, colors::kMuted, 0.8);
-  view.scale_bar(canvas);
+  GroundView(map.low, map.high, top_left, bottom_right).scale_bar(canvas);
   legend(canvas, {16.0, 34.0 + height + 22.0},
-         std::vector<LegendEntry>{{kOccupiedCell, "occupied"},
-                                  {{236, 238, 241}, "empty (white)"},
-                                  {kUnknownCell, "unknown"},
-                                  {kContestedCell, "contested"},
-                                  {colors::kBlue, "way of the robot"}},
+         std::vector<LegendEntry>{
+             {kOccupiedCell, "occupied"},
+             {{236, 238, 241}, "empty (white)"},
+             {kUnknownCell, "unknown"},
+             {kContestedCell, "contested"},
+             {colors::kBlue, leaves ? "way of the robot (leads out of the map)" : "way of the robot"}},
          8.5);
   draw_layers(canvas, grid, map, {16.0 + width + 22.0, 12.0}, layer_width, layer_height);
   return canvas.finish();

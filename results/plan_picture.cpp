@@ -9,6 +9,7 @@
 #include "geometry/principal_axes.hpp"
 #include "results/ground_view.hpp"
 #include "results/pictures.hpp"
+#include "results/plot.hpp"
 #include "results/status_colors.hpp"
 
 namespace credo::results {
@@ -126,7 +127,8 @@ void draw_panel(Canvas& canvas, const Moment& moment, Point corner) {
   const auto say = [&](const char* format, auto... values) {
     char text[128];
     std::snprintf(text, sizeof text, format, values...);
-    canvas.text({corner.x(), y}, text, colors::kInk, 8.5);
+    constexpr double kHeight = 8.5;
+    canvas.text({corner.x(), y}, text, colors::kInk, kHeight * std::min(1.0, width / text_width(text, kHeight)));
     y += 19.0;
   };
   canvas.disc({corner.x() + 6.0, y - 4.5}, 6.0, color_of(l.status));
@@ -138,11 +140,11 @@ void draw_panel(Canvas& canvas, const Moment& moment, Point corner) {
   say("%d matched of %d seen, %d tracks", l.matched, l.detected, l.tracked);
   const auto axes = geometry::principal_axes(l.estimate.covariance.topLeftCorner<2, 2>());
   const auto sigma = [](double variance) { return std::sqrt(std::max(0.0, variance)); };
-  say("3 sigma: %.1f x %.1f cm, %.2f deg", 300.0 * sigma(axes.largest), 300.0 * sigma(axes.smallest),
+  say("3 sigma: %s, %.2f deg", size_text(3.0 * sigma(axes.largest), 3.0 * sigma(axes.smallest)).c_str(),
       3.0 * geometry::to_degrees(sigma(l.estimate.covariance(2, 2))));
   if (moment.truth) {
     const geometry::Pose2& pose = l.estimate.pose;
-    say("error: %.1f cm, %.2f deg", 100.0 * (moment.truth->translation() - pose.translation()).norm(),
+    say("error: %s, %.2f deg", length_text((moment.truth->translation() - pose.translation()).norm()).c_str(),
         std::abs(geometry::to_degrees(geometry::angle_difference(moment.truth->theta, pose.theta))));
   }
   draw_ellipse_panel(canvas, moment, {corner.x(), y}, width);
@@ -159,8 +161,12 @@ void draw_foot(Canvas& canvas, double y, bool truth) {
                                {color_of(PrimitiveType::kOther), "other"}}) {
     entries.push_back(e);
   }
-  const double x = legend(canvas, {14.0, y}, entries);
-  canvas.text({x, y}, "hollow: not matched", colors::kInk, 8.0);
+  double x = legend(canvas, {14.0, y}, entries);
+  const char* const hollow = "hollow: not matched";
+  canvas.text({x, y}, hollow, colors::kInk, 8.0);
+  x += text_width(hollow, 8.0) + 16.0;
+  canvas.dashed({x, y - 4.0}, {x + 24.0, y - 4.0}, colors::kMuted, 1.2, 3.0);
+  canvas.text({x + 30.0, y}, "direction only", colors::kInk, 8.0);
 }
 
 }  // namespace

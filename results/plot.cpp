@@ -38,6 +38,37 @@ std::string tick_label(double value, double step) {
   return text;
 }
 
+namespace {
+
+/// How lengths of about some metres are written.
+struct LengthUnit {
+  double per_metre;
+  int decimals;
+  const char* name;
+
+  static LengthUnit of(double metres) {
+    if (std::abs(metres) < 1.0) return {100.0, 1, "cm"};
+    return {1.0, std::abs(metres) < 100.0 ? 2 : 0, "m"};
+  }
+};
+
+}  // namespace
+
+std::string length_text(double metres) {
+  const LengthUnit unit = LengthUnit::of(metres);
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f %s", unit.decimals, metres * unit.per_metre, unit.name);
+  return text;
+}
+
+std::string size_text(double longer_m, double shorter_m) {
+  const LengthUnit unit = LengthUnit::of(longer_m);
+  char text[96];
+  std::snprintf(text, sizeof text, "%.*f x %.*f %s", unit.decimals, longer_m * unit.per_metre, unit.decimals,
+                shorter_m * unit.per_metre, unit.name);
+  return text;
+}
+
 struct Plot::Axes {
   double x0 = 0, x1 = 1, y0 = 0, y1 = 1;            // data
   double left = 0, right = 1, top = 0, bottom = 1;  // canvas

@@ -16,6 +16,11 @@ namespace credo::results {
 /// A tick as it is written beside the axis, with the decimals that the step needs.
 [[nodiscard]] std::string tick_label(double value, double step);
 
+/// A length for people: in cm, from 1 m on in m, and without decimals from 100 m on.
+[[nodiscard]] std::string length_text(double metres);
+/// Two lengths in the unit of the longer one: "1.3 x 1.2 cm".
+[[nodiscard]] std::string size_text(double longer_m, double shorter_m);
+
 /// A chart: series over one axis, with frame, grid, ticks, labels and legend. Values that are not finite leave a gap.
 class Plot {
  public:

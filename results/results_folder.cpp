@@ -3,9 +3,11 @@
 
 #include "results/results_folder.hpp"
 
+#include <cerrno>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace credo::results {
 namespace {
@@ -37,10 +39,13 @@ datasets::StagedFolder stage_results(const fs::path& target, bool replace) {
 }
 
 void write_text(const fs::path& file, const std::string& text) {
+  errno = 0;
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written: is the disk full?");
+  if (out) return;
+  const std::string reason = errno == 0 ? "for a reason unknown" : std::generic_category().message(errno);
+  throw std::runtime_error(file.string() + ": cannot be written: " + reason);
 }
 
 }  // namespace credo::results

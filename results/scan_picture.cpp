@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "results/ground_view.hpp"
 #include "results/pictures.hpp"
@@ -46,16 +49,60 @@ void draw_rings(Canvas& canvas, const GroundView& view, double reach) {
   }
 }
 
-/// On top of everything, to the lower right.
-void label_rings(Canvas& canvas, const GroundView& view, double reach) {
+constexpr double kLabel = 7.5;  // height of the rings' labels
+
+struct RingLabel {
+  std::string text;
+  Point at;  ///< of its middle
+  [[nodiscard]] Point half_size() const { return {0.5 * text_width(text, kLabel) + 4.0, 7.0}; }
+};
+
+std::vector<RingLabel> ring_labels(const GroundView& view, double reach, double direction) {
+  std::vector<RingLabel> labels;
   const double step = ring_step(reach);
   for (double r = step; r < reach; r += step) {
     char text[16];
     std::snprintf(text, sizeof text, "%g m", r);
-    const Point at = view.at(r * Eigen::Vector2d(std::sqrt(0.5), -std::sqrt(0.5)));
-    const double half = 0.5 * text_width(text, 7.5);
-    canvas.box(at + Point(-half - 3.0, -8.0), at + Point(half + 3.0, 5.0), colors::kPaper, 0.8);
-    canvas.text(at + Point(0.0, 3.0), text, colors::kMuted, 7.5, Anchor::kCentre);
+    labels.push_back({text, view.at(r * Eigen::Vector2d(std::cos(direction), std::sin(direction)))});
+  }
+  return labels;
+}
+
+/// What the scan shows, as dots close to each other.
+std::vector<Point> dots_of(const GroundView& view, const perception::Scene& scene) {
+  constexpr double kSpacing_px = 5.0;
+  std::vector<Point> dots;
+  for (const sensors::ScanPoint& p : scene.points) dots.push_back(view.at(heading_up(p.position)));
+  for (const perception::FusedSegment& s : scene.segments) {
+    const Point a = view.at(heading_up(s.extent.a)), b = view.at(heading_up(s.extent.b));
+    const int count = std::clamp(static_cast<int>((b - a).norm() / kSpacing_px), 1, 1000);
+    for (int i = 0; i <= count; ++i) dots.push_back(a + i * (b - a) / count);
+  }
+  return dots;
+}
+
+/// In the direction in which they hide least, the lower right before others.
+void label_rings(Canvas& canvas, const GroundView& view, const perception::Scene& scene, double reach) {
+  constexpr int kDirections = 24;
+  const std::vector<Point> dots = dots_of(view, scene);
+  std::vector<RingLabel> best;
+  std::ptrdiff_t least = std::numeric_limits<std::ptrdiff_t>::max();
+  for (int k = 0; k < kDirections && least > 0; ++k) {
+    const auto labels = ring_labels(view, reach, -0.25 * std::numbers::pi + 2.0 * std::numbers::pi * k / kDirections);
+    std::ptrdiff_t hidden = 0;
+    for (const RingLabel& label : labels) {
+      const Point half = label.half_size() + Point(4.0, 4.0);
+      hidden += std::count_if(dots.begin(), dots.end(), [&](const Point& dot) {
+        return ((dot - label.at).cwiseAbs().array() < half.array()).all();
+      });
+    }
+    if (hidden >= least) continue;
+    least = hidden;
+    best = labels;
+  }
+  for (const RingLabel& label : best) {
+    canvas.box(label.at - label.half_size(), label.at + label.half_size(), colors::kPaper, 0.8);
+    canvas.text(label.at + Point(0.0, 3.5), label.text, colors::kMuted, kLabel, Anchor::kCentre);
   }
 }
 
@@ -67,13 +114,18 @@ void draw_bearings(Canvas& canvas, const GroundView& view, const perception::Sce
   }
 }
 
+void draw_point(Canvas& canvas, const Point& at) { canvas.disc(at, 1.3, {70, 74, 82}); }
+
+/// A ring around the end, wide enough to be seen around a mark.
+void draw_sharpened(Canvas& canvas, const Point& at) { canvas.circle(at, 8.0, colors::kInk, 1.2); }
+
 void draw_segments(Canvas& canvas, const GroundView& view, const perception::Scene& scene) {
   for (const perception::FusedSegment& s : scene.segments) {
     canvas.line(view.at(heading_up(s.extent.a)), view.at(heading_up(s.extent.b)), color_of(s.existence), 3.4);
   }
   for (const perception::FusedSegment& s : scene.segments) {
-    if (s.source_a != EndpointSource::kRangeFinder) canvas.disc(view.at(heading_up(s.extent.a)), 2.2, colors::kInk);
-    if (s.source_b != EndpointSource::kRangeFinder) canvas.disc(view.at(heading_up(s.extent.b)), 2.2, colors::kInk);
+    if (s.source_a != EndpointSource::kRangeFinder) draw_sharpened(canvas, view.at(heading_up(s.extent.a)));
+    if (s.source_b != EndpointSource::kRangeFinder) draw_sharpened(canvas, view.at(heading_up(s.extent.b)));
   }
 }
 
@@ -82,6 +134,32 @@ void draw_primitives(Canvas& canvas, const GroundView& view, const perception::S
     if (p.bearing_only || p.type == PrimitiveType::kWall) continue;
     draw_mark(canvas, view.at(heading_up(p.position)), p.type, 5.0);
   }
+}
+
+std::string title_of(const perception::Scene& scene) {
+  if (scene.points.empty()) return "no scan at this moment, or one without any range";
+  char text[128];
+  std::snprintf(text, sizeof text, "%zu points, %zu segments, mean conflict of the five criteria %.3f",
+                scene.points.size(), scene.segments.size(), scene.mean_conflict);
+  return text;
+}
+
+void draw_legend(Canvas& canvas, double y) {
+  legend(canvas, {14.0, y},
+         std::vector<LegendEntry>{{color_of(evidence::BinaryMass{1, 0, 0}), "segment: YES"},
+                                  {color_of(evidence::BinaryMass{0, 0, 1}), "unknown"},
+                                  {color_of(evidence::BinaryMass{0, 1, 0}), "NO"},
+                                  {{219, 226, 236}, "radial line of the camera"}});
+  const double below = y + 20.0;
+  double x = legend(canvas, {14.0, below},
+                    std::vector<LegendEntry>{{color_of(PrimitiveType::kCorner), "corner"},
+                                             {color_of(PrimitiveType::kEdge), "edge"},
+                                             {color_of(PrimitiveType::kOther), "other"}});
+  draw_point(canvas, {x + 4.0, below - 4.0});
+  canvas.text({x + 12.0, below}, "range point", colors::kInk, 8.0);
+  x += 12.0 + text_width("range point", 8.0) + 22.0;
+  draw_sharpened(canvas, {x + 4.0, below - 4.0});
+  canvas.text({x + 18.0, below}, "end sharpened by the camera", colors::kInk, 8.0);
 }
 
 }  // namespace
@@ -95,28 +173,14 @@ cv::Mat scan_picture(const perception::Scene& scene, double robot_radius_m) {
   canvas.clip({0.0, kHead}, {kSide, kHead + kSide});
   draw_bearings(canvas, view, scene, reach);
   draw_rings(canvas, view, reach);
+  label_rings(canvas, view, scene, reach);
   draw_segments(canvas, view, scene);
-  for (const sensors::ScanPoint& p : scene.points) canvas.disc(view.at(heading_up(p.position)), 1.3, {70, 74, 82});
-  label_rings(canvas, view, reach);
+  for (const sensors::ScanPoint& p : scene.points) draw_point(canvas, view.at(heading_up(p.position)));
   draw_primitives(canvas, view, scene);
   draw_robot(canvas, view, {0.0, 0.0, 0.5 * std::numbers::pi}, robot_radius_m, colors::kInk);
   canvas.clip();
-  char text[128];
-  std::snprintf(text, sizeof text, "%zu points, %zu segments, mean conflict of the five criteria %.3f",
-                scene.points.size(), scene.segments.size(), scene.mean_conflict);
-  canvas.text({14.0, 22.0}, text, colors::kInk, 10.0, Anchor::kLeft, 1.2);
-  const double y = kHead + kSide + 20.0;
-  legend(canvas, {14.0, y},
-         std::vector<LegendEntry>{{color_of(evidence::BinaryMass{1, 0, 0}), "segment: YES"},
-                                  {color_of(evidence::BinaryMass{0, 0, 1}), "unknown"},
-                                  {color_of(evidence::BinaryMass{0, 1, 0}), "NO"},
-                                  {{219, 226, 236}, "radial line of the camera"}});
-  const double x = legend(canvas, {14.0, y + 20.0},
-                          std::vector<LegendEntry>{{color_of(PrimitiveType::kCorner), "corner"},
-                                                   {color_of(PrimitiveType::kEdge), "edge"},
-                                                   {color_of(PrimitiveType::kOther), "other"}});
-  canvas.disc({x + 4.0, y + 16.0}, 2.2, colors::kInk);
-  canvas.text({x + 12.0, y + 20.0}, "end sharpened by the camera", colors::kInk, 8.0);
+  canvas.text({14.0, 22.0}, title_of(scene), colors::kInk, 10.0, Anchor::kLeft, 1.2);
+  draw_legend(canvas, kHead + kSide + 20.0);
   return canvas.finish();
 }
 

@@ -4,17 +4,17 @@
 #include "sim/simulation.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <stdexcept>
-#include <thread>
 
 #include "sim/odometry_simulator.hpp"
 #include "sim/omni_renderer.hpp"
+#include "sim/passage.hpp"
 #include "sim/plan.hpp"
 #include "sim/random.hpp"
 #include "sim/range_simulator.hpp"
 #include "sim/sonar_simulator.hpp"
+#include "sim/together.hpp"
 #include "sim/trajectory.hpp"
 
 namespace credo::sim {
@@ -65,6 +65,13 @@ void check_number_of_readings(const World& world, const Trajectory& way) {
     throw std::invalid_argument("the drive takes " + std::to_string(way.duration_s()) + " s with " +
                                 std::to_string(readings) +
                                 " readings; expected at most 5 million: shorten the path, or lower the rates");
+}
+
+/// \throws std::invalid_argument where the robot would drive through a wall
+Trajectory drivable(const World& world) {
+  Trajectory way(world.path, world.drive);
+  if (const auto obstruction = find_obstruction(world, way)) throw std::invalid_argument(obstruction->what);
+  return way;
 }
 
 std::vector<Reading> schedule_all(const World& world, const Trajectory& way, std::uint64_t seed) {
@@ -137,7 +144,7 @@ struct Simulation::Parts {
   Parts(World the_world, std::uint64_t the_seed)
       : world(checked(std::move(the_world))),
         seed(the_seed),
-        way(world.path, world.drive),
+        way(drivable(world)),
         rig(calibrated_rig(world)),
         plan(draw_floor_plan(world, plan_height(world), seed)),
         start(told_start(world, way.pose_at(0.0), seed)),
@@ -175,23 +182,19 @@ std::vector<geometry::Pose2> Simulation::Parts::exposures(double seconds) const 
   return poses;
 }
 
-/// Threads take the next image that nobody has; every image is a function of its index alone.
+/// Threads take the next image that nobody has; every image is a function of its index alone. What a thread throws, the
+/// caller gets.
 std::vector<Simulation::Parts::Picture> Simulation::Parts::render(std::span<const Reading> images, int threads,
                                                                   bool verticals) const {
   std::vector<Picture> pictures(images.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
+  run_together(threads, images.size(), [&](NextIndex& next) {
     OmniRenderer::Workspace workspace(world);
-    for (std::size_t i = next++; i < images.size(); i = next++) {
-      const double seconds = seconds_of(images[i].time);
-      pictures[i].pixels = renderer->render(exposures(seconds), images[i].index, workspace);
-      if (verticals) pictures[i].verticals = renderer->true_verticals(way.pose_at(seconds), workspace);
+    while (const auto i = next()) {
+      const double seconds = seconds_of(images[*i].time);
+      pictures[*i].pixels = renderer->render(exposures(seconds), images[*i].index, workspace);
+      if (verticals) pictures[*i].verticals = renderer->true_verticals(way.pose_at(seconds), workspace);
     }
-  };
-  std::vector<std::jthread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
-  work();
-  helpers.clear();
+  });
   return pictures;
 }
 

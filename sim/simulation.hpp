@@ -61,7 +61,8 @@ struct TruthMap {
 /// number of threads. The constructor draws what holds for the whole drive (calibration errors, floor plan errors).
 class Simulation {
  public:
-  /// \throws std::invalid_argument  for a world without a path or without a sensor.
+  /// \throws std::invalid_argument  for a world without a path or without a sensor, or a path that the robot cannot
+  ///   drive.
   Simulation(World world, std::uint64_t seed);
   ~Simulation();
   Simulation(Simulation&&) noexcept;

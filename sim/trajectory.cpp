@@ -143,6 +143,37 @@ geometry::Pose2 Trajectory::at_end(const Piece& piece, double share) {
   return piece.start * geometry::Pose2{chord * std::cos(half), chord * std::sin(half), turn};
 }
 
+namespace {
+
+/// Whether going on to `to` from the end of a stretch leads straight on.
+bool continues(const geometry::Segment& stretch, const Eigen::Vector2d& to) {
+  const Eigen::Vector2d a = stretch.b - stretch.a, b = to - stretch.b;
+  return a.norm() > 1e-9 && a.dot(b) > 0.0 && std::abs(geometry::cross(a, b)) < 1e-9 * a.norm() * b.norm();
+}
+
+}  // namespace
+
+std::vector<geometry::Segment> Trajectory::stretches() const {
+  constexpr double kLongestChord_rad = 0.05;
+  std::vector<geometry::Segment> stretches;
+  for (const Piece& piece : pieces_) {
+    Eigen::Vector2d from = piece.start.translation();
+    const bool set_down = stretches.empty() || (stretches.back().b - from).norm() > 1e-6;
+    if (set_down) stretches.push_back({from, from});
+    if (piece.length_m == 0.0) continue;
+    const int chords = std::max(1, static_cast<int>(std::ceil(std::abs(piece.turn_rad) / kLongestChord_rad)));
+    for (int i = 1; i <= chords; ++i) {
+      const Eigen::Vector2d to = at_end(piece, static_cast<double>(i) / chords).translation();
+      if (continues(stretches.back(), to))
+        stretches.back().b = to;
+      else
+        stretches.push_back({from, to});
+      from = to;
+    }
+  }
+  return stretches;
+}
+
 geometry::Pose2 Trajectory::pose_at(double seconds) const {
   const auto after = std::upper_bound(pieces_.begin() + 1, pieces_.end(), seconds,
                                       [](double t, const Piece& piece) { return t < piece.begin_s; });

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/pose.hpp"
+#include "geometry/segment.hpp"
 #include "sim/world.hpp"
 
 namespace credo::sim {
@@ -23,6 +24,9 @@ class Trajectory {
   [[nodiscard]] const std::vector<double>& stops() const { return stops_; }
   /// When the robot was carried away [s].
   [[nodiscard]] const std::vector<double>& carried() const { return carried_; }
+  /// What is driven over, without the times: straight lines, and chords of curves that are at most 0.05 rad long. A
+  /// place where the robot is set down is a stretch of no length.
+  [[nodiscard]] std::vector<geometry::Segment> stretches() const;
 
  private:
   /// Moves `length` along a circle of `curvature` (0 = straight; or turns by `turn` on the spot) from `start`.

@@ -124,6 +124,8 @@ struct World {
   double exposure_gain = 230.0;  ///< grey levels of white paper in good light
   std::vector<Material> materials;
   std::vector<Panel> panels;
+  /// Outlines of what is indoors; without any, all within the rectangle around the panels is.
+  std::vector<std::vector<Eigen::Vector2d>> areas;
   std::vector<Eigen::Vector2d> marks;  ///< vertical lines without relief that the floor plan shows (door frames)
   CeilingLamps lamps;
   double floor_albedo = 0.45;
@@ -143,8 +145,8 @@ struct World {
 };
 
 /// Reads a world file (sim/worlds/README.md lists every key).
-/// \throws std::runtime_error  "file:line: ..." for a missing file, a wrong type, an impossible value or an unknown key
-///   (with the nearest known one).
+/// \throws std::runtime_error  "file:line: ..." for a missing file, a wrong type, an impossible value, an unknown key
+///   (with the nearest known one), or a path that the robot cannot drive.
 [[nodiscard]] World load_world(const std::filesystem::path& file);
 
 }  // namespace credo::sim

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "sim/building.hpp"
+#include "sim/passage.hpp"
 #include "sim/presets.hpp"
 #include "sim/world.hpp"
 #include "sim/yaml_map.hpp"
@@ -78,12 +79,13 @@ void read_materials(YamlMap& building, World& world) {
   }
 }
 
-void read_solids(YamlMap& building, Builder& builder) {
+void read_solids(YamlMap& building, World& world, Builder& builder) {
   for (YamlMap& map : building.maps("rooms")) {
     const auto outline = map.points("outline");
     if (outline.size() < 3) map.fail("outline", "a room needs at least 3 corners");
     placed(map, "outline", [&] { builder.add_walls(outline, true, map.text("material", "wall"), true); });
     map.close();
+    world.areas.push_back(outline);
   }
   for (YamlMap& map : building.maps("walls")) {
     const auto points = map.points("points");
@@ -91,6 +93,7 @@ void read_solids(YamlMap& building, Builder& builder) {
       builder.add_walls(points, map.flag("closed", false), map.text("material", "wall"), map.flag("in_plan", true));
     });
     map.close();
+    if (!world.areas.empty() && points.size() > 2) world.areas.push_back(points);  // a yard beside the rooms
   }
   for (YamlMap& map : building.maps("pillars")) {
     placed(map, "at", [&] {
@@ -197,7 +200,7 @@ void read_building(YamlMap building, World& world) {
   read_light(building, world);
   read_materials(building, world);
   Builder builder(world);
-  read_solids(building, builder);
+  read_solids(building, world, builder);
   read_doors(building, builder);
   read_overlays(building, "posters", {}, builder);
   read_overlays(building, "windows",
@@ -223,12 +226,17 @@ void read_drive(YamlMap map, Drive& drive) {
   map.close();
 }
 
+/// Where each waypoint stands: "file:line".
+using PathSource = std::vector<std::string>;
+
 /// Waypoints [x, y], or {carried_to: [x, y]} where the robot is set down.
-void read_path(YamlMap& top, World& world, const std::string& file) {
+PathSource read_path(YamlMap& top, World& world, const std::string& file) {
+  PathSource source;
   const YAML::Node path = top.child("path");
   if (!path.IsDefined() || !path.IsSequence() || path.size() < 2)
     top.fail("path", "'path' must be a list of at least two waypoints [x, y]");
   for (const YAML::Node& item : path) {
+    source.push_back(file + ":" + std::to_string(item.Mark().line + 1));
     if (item.IsSequence()) {
       const std::vector<double> p = top.numbers_of(item, 2, "path");
       world.path.push_back({{p[0], p[1]}, false});
@@ -240,6 +248,7 @@ void read_path(YamlMap& top, World& world, const std::string& file) {
   }
   if (world.path.front().carried_here)
     top.fail("path", "the first waypoint is where the robot starts: it cannot be carried there");
+  return source;
 }
 
 CameraSetup read_camera(YamlMap map) {
@@ -349,7 +358,9 @@ YAML::Node load_file(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file))
     throw std::runtime_error(file.string() + ": is a folder; expected a world file");
   try {
-    return YAML::LoadFile(file.string());
+    YAML::Node node = YAML::LoadFile(file.string());
+    if (node.IsNull()) throw std::runtime_error(file.string() + ": is empty; expected a world file");
+    return node;
   } catch (const YAML::BadFile&) {
     throw std::runtime_error(file.string() + ": cannot read this world file: check the path");
   } catch (const YAML::Exception& error) {
@@ -358,18 +369,19 @@ YAML::Node load_file(const std::filesystem::path& file) {
   }
 }
 
-void read_world(const std::filesystem::path& file, World& world, std::set<std::string>& seen) {
+void read_world(const std::filesystem::path& file, World& world, PathSource& path, std::set<std::string>& seen) {
   if (!seen.insert(std::filesystem::weakly_canonical(file).string()).second)
     throw std::runtime_error(file.string() + ":1: a world cannot extend itself");
   YamlMap top(load_file(file), file.string(), "the world");
   if (top.text("format", "") != "credo-world/1") top.fail("format", "'format' must be credo-world/1");
   const bool extends = top.has("extends");
-  if (extends) read_world(file.parent_path() / top.text("extends", ""), world, seen);
+  if (extends) read_world(file.parent_path() / top.text("extends", ""), world, path, seen);
   world.name = top.text("name", file.stem().string());
   world.description = top.text("description", world.description);
   if (!extends || top.has("building")) {
     world.panels.clear();
     world.marks.clear();
+    world.areas.clear();
     read_building(top.map("building"), world);
   }
   world.plan_uncertainty_m = not_negative(top, "plan_uncertainty", world.plan_uncertainty_m);
@@ -377,7 +389,7 @@ void read_world(const std::filesystem::path& file, World& world, std::set<std::s
   if (top.has("drive")) read_drive(top.map("drive"), world.drive);
   if (!extends || top.has("path")) {
     world.path.clear();
-    read_path(top, world, file.string());
+    path = read_path(top, world, file.string());
   }
   world.initial_pose_known = top.flag("initial_pose_known", world.initial_pose_known);
   if (top.has("initial_pose_sigma")) {
@@ -399,12 +411,24 @@ void read_world(const std::filesystem::path& file, World& world, std::set<std::s
   top.close();
 }
 
+void check_path(const World& world, const PathSource& path) {
+  std::optional<Obstruction> obstruction;
+  try {
+    obstruction = find_obstruction(world, Trajectory(world.path, world.drive));
+  } catch (const std::invalid_argument& error) {
+    obstruction = {0, error.what()};
+  }
+  if (obstruction) throw std::runtime_error(path[obstruction->waypoint] + ": " + obstruction->what);
+}
+
 }  // namespace
 
 World load_world(const std::filesystem::path& file) {
   World world;
+  PathSource path;
   std::set<std::string> seen;
-  read_world(file, world, seen);
+  read_world(file, world, path, seen);
+  check_path(world, path);
   state_accuracy(world);
   return world;
 }

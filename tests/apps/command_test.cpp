@@ -115,7 +115,7 @@ TEST_F(Command, NumbersOfOptionsAreFiniteAndWithinTheirBounds) {
     EXPECT_THAT(answer.error, HasSubstr("expected a ")) << arguments;
   }
   EXPECT_FALSE(fs::exists(folder_ / "out"));
-  EXPECT_EQ(credo("evaluate ape ref.tum est.tum --fail_above rmse=nan").status, 1);
+  EXPECT_EQ(credo("evaluate ape ref.tum est.tum --fail_above rmse=nan").status, 2);
   EXPECT_EQ(credo("evaluate ape ref.tum est.tum --t_offset +0.001").status, 0);
 }
 
@@ -205,7 +205,12 @@ TEST_F(Command, JsonIsForMachinesAndTheGateFails) {
   EXPECT_EQ(ape["errors"].size(), 5u);
   EXPECT_EQ(credo("evaluate ape ref.tum est.tum --fail_above rmse=0.2").status, 0);
   EXPECT_EQ(credo("evaluate ape ref.tum est.tum --fail_above rmse=0.1").status, 1);
-  EXPECT_THAT(credo("evaluate ape ref.tum est.tum --fail_above mode=1").error, HasSubstr("STATISTIC=VALUE"));
+  for (const char* gate : {"mode=1", "rmse", "rmse=", "=1", "rmse=one", "''"}) {
+    const Answer answer = credo("evaluate ape ref.tum est.tum --fail_above " + std::string(gate));
+    EXPECT_EQ(answer.status, 2) << gate;
+    EXPECT_EQ(answer.out, "") << gate;
+    EXPECT_THAT(answer.error, HasSubstr("STATISTIC=VALUE")) << gate;
+  }
   const json traj = json::parse(credo("evaluate traj est.tum --ref ref.tum --format json").out);
   EXPECT_EQ(traj[0]["poses"], 5);
   EXPECT_NEAR(traj[0]["ape_rmse_m"].get<double>(), 0.141421, 1e-6);
@@ -294,6 +299,34 @@ TEST_F(Command, PosesOfAnotherDriveAreNoMap) {
   EXPECT_EQ(credo("map data --sensors camera --out out2").status, 2);
 }
 
+/// A laser and three transducers; the robot stands still in a corner.
+constexpr const char* kLogWithSonar =
+    "ODOM 0 0 0 0 0 0 1 host 1\nSONAR 0.5 3 1.2 1.4 2.5 0 0 0 0 0 1.57 0 0 -1.57 1.1 host 1.1\n"
+    "FLASER 4 1.5 1.4 1.3 1.2 0 0 0 0 0 0 1.2 host 1.2\n"
+    "ODOM 0 0 0 0 0 0 1.3 host 1.3\nFLASER 4 1.5 1.4 1.3 1.2 0 0 0 0 0 0 1.4 host 1.4\n";
+
+TEST_F(Command, OfALogOnlyTheSensorsAskedForAreMapped) {
+  write("log", kLogWithSonar);
+  const auto mapped = [&](const std::string& sensors) {
+    const Answer answer = credo("map log --force --out out --format json --sensors " + sensors);
+    EXPECT_EQ(answer.status, 0) << sensors << ": " << answer.error;
+    const json report = json::parse(answer.out, nullptr, false);
+    return answer.status == 0 ? std::pair(report["scans"].get<int>(), report["sonar_sweeps"].get<int>())
+                              : std::pair(-1, -1);
+  };
+  EXPECT_EQ(mapped("range"), std::pair(2, 0));
+  EXPECT_EQ(mapped("sonar"), std::pair(0, 1));
+  EXPECT_EQ(mapped("range,sonar"), std::pair(2, 1));
+  write("blind.log", "FLASER 4 1.5 1.4 1.3 1.2 0 0 0 0 0 0 1.2 host 1.2\n");
+  for (const char* more : {"", " --poses blind.tum"}) {
+    write("blind.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+    const Answer answer = credo("map blind.log --sensors sonar --out none" + std::string(more));
+    EXPECT_EQ(answer.status, 1) << more;
+    EXPECT_THAT(answer.error, HasSubstr("blind.log: holds no reading of the sensors")) << more;
+    EXPECT_FALSE(fs::exists(folder_ / "none")) << more;
+  }
+}
+
 TEST_F(Command, AResolutionTooFineForTheSensorsIsRefused) {
   write_small_world();
   write("small.yaml", std::regex_replace(read("small.yaml"), std::regex("opensimple,"), "opensimple, range_max: 5,"));
@@ -330,6 +363,91 @@ TEST_F(Command, WithoutAFloorPlanPosesAreEgoMotionAndThereIsAMap) {
   EXPECT_EQ(report["status"]["initializing"], report["acquisitions"]);
   EXPECT_GT(report["mapped"]["scans"].get<int>(), 0);
   EXPECT_TRUE(fs::exists(folder_ / "out/map.pgm"));
+}
+
+TEST_F(Command, AnEmptyNameIsWrongUsage) {
+  for (const char* arguments : {"run ''", "run data --out ''", "run data --pictures ''", "map ''", "map data --out ''",
+                                "simulate ''", "simulate office --out ''", "demo --out ''", "info ''",
+                                "evaluate score '' out", "evaluate ape ref.tum ''", "evaluate map data ''"}) {
+    const Answer answer = credo(arguments);
+    EXPECT_EQ(answer.status, 2) << arguments;
+    EXPECT_THAT(answer.error, HasSubstr("found an empty name")) << arguments;
+  }
+}
+
+TEST_F(Command, ANameThatIsAPathBecomesAFolderOfThatName) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  const std::string yaml = read("data/dataset.yaml");
+  for (const auto& [name, folder] : {std::pair{"a/../../b", "results/a_.._.._b"}, {"..", "results/_.."}}) {
+    write("data/dataset.yaml",
+          std::regex_replace(yaml, std::regex("\nname: .*"), "\nname: \"" + std::string(name) + "\""));
+    const Answer answer = credo("run data");
+    EXPECT_EQ(answer.status, 0) << answer.error;
+    EXPECT_TRUE(fs::exists(folder_ / folder / "config.yaml")) << name;
+  }
+}
+
+TEST_F(Command, OnlyWorldsAreListedAsWorlds) {
+  const Answer answer = credo("simulate README --out out");
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_THAT(answer.error, AllOf(HasSubstr("demo"), HasSubstr("office"), testing::EndsWith("office\n")));
+  EXPECT_THAT(answer.error.substr(answer.error.find("worlds that")), Not(HasSubstr("README")));
+}
+
+TEST_F(Command, AMapThatWouldOutgrowItsLimitIsRefusedBeforeTheWork) {
+  write_small_world();
+  write("small.yaml", std::regex_replace(std::regex_replace(read("small.yaml"), std::regex("outline: .*\n"),
+                                                            "outline: [[0, 0], [24, 0], [24, 6], [0, 6]]\n"),
+                                         std::regex("path: .*\n"), "path: [[1, 2], [23, 2], [23, 4], [1, 4]]\n"));
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  const std::string limited = "cd '" + folder_.string() +
+                              "' && ulimit -v 700000 && '" CREDO_COMMAND
+                              "' map data --resolution 0.001 --sensors range --out out/map 2>.error";
+  EXPECT_EQ(WEXITSTATUS(std::system(limited.c_str())), 1);
+  EXPECT_THAT(read(".error"), AllOf(HasSubstr("data: the readings are from "),
+                                    HasSubstr("67108864 cells that a map may have at a resolution of 0.001 m"),
+                                    HasSubstr("choose one of 0.002 m or coarser")));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Command, ATruncatedTrueMapIsFoundByInfoAndEvaluation) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  ASSERT_EQ(credo("map data --out map").status, 0);
+  fs::resize_file(folder_ / "data/truth_map.pgm", fs::file_size(folder_ / "data/truth_map.pgm") / 2);
+  for (const char* arguments : {"info data", "evaluate map data map"}) {
+    const Answer answer = credo(arguments);
+    EXPECT_EQ(answer.status, 1) << arguments;
+    EXPECT_THAT(answer.error, AllOf(StartsWith("credo: error: "), HasSubstr("truth_map.pgm: the picture is cut short")))
+        << arguments;
+  }
+}
+
+TEST_F(Command, PosesRelativeToTheStartHaveNoScore) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  ASSERT_EQ(credo("run data --out good").status, 0);
+  std::string far;
+  for (int i = 0; i < 10000; ++i) far += std::to_string(1600000000.0 + 0.01 * i) + " 90 0 0 0 0 0 1\n";
+  write("far.tum", far);
+  const Answer elsewhere = credo("evaluate score far.tum good --format json");
+  EXPECT_EQ(elsewhere.status, 0) << elsewhere.error;
+  EXPECT_THAT(elsewhere.error, HasSubstr("is far.tum the truth of good?"));
+  EXPECT_EQ(credo("evaluate score data good").error, "");
+  fs::remove(folder_ / "data/floor_plan.yaml");
+  ASSERT_EQ(credo("run data --out relative").status, 0);
+  const Answer answer = credo("evaluate score data relative");
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_EQ(answer.out, "");
+  EXPECT_THAT(answer.error, AllOf(HasSubstr("relative: all acquisitions are initializing"), HasSubstr("evaluate rpe")));
+}
+
+TEST_F(Command, ARefusedRunLeavesNoFolder) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  EXPECT_EQ(credo("run data --resolution 9 --out new/newer/run").status, 1);
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
 }
 
 }  // namespace

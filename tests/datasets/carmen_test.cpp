@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "datasets/acquisitions.hpp"
+#include "datasets/format_error.hpp"
 #include "tests/datasets/temporary_folder.hpp"
 
 namespace credo::datasets {
@@ -161,6 +162,13 @@ TEST(Carmen, ReadsPublishedLogs) {
   const CarmenLog belgioioso = read_carmen(real / "carmen_corrected/belgioioso-corrected.log.gz");
   EXPECT_FALSE(belgioioso.times_usable);
   EXPECT_EQ(belgioioso.rig.range_finders[0].count, 361);
+}
+
+TEST(Carmen, AWholeNumberIsToldAsOne) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.log", "FLASER 0 1 0 0 0 0 0 0 1 host 1\n");
+  EXPECT_THAT([&] { (void)read_carmen(file); },
+              testing::ThrowsMessage<FormatError>(testing::EndsWith("1 to 100000, found 0")));
 }
 
 }  // namespace

@@ -333,7 +333,8 @@ INSTANTIATE_TEST_SUITE_P(, MistakeInADataset, testing::ValuesIn(kMistakes),
 TEST_F(SmallDataset, TruncatedImageIsFoundAtOpening) {
   const auto image = folder_ / "camera0/data/01600000000250000000.png";
   std::filesystem::resize_file(image, std::filesystem::file_size(image) - 5);
-  EXPECT_THAT(complaint_of_opening(), AllOf(HasSubstr(image), HasSubstr("truncated")));
+  EXPECT_THAT(complaint_of_opening(),
+              AllOf(HasSubstr("camera0/data.csv:2: "), HasSubstr(image), HasSubstr("truncated")));
   std::filesystem::resize_file(image, 0);
   EXPECT_THAT(complaint_of_opening(), HasSubstr("is empty"));
 }
@@ -353,7 +354,8 @@ TEST_F(SmallDataset, DamagedImageIsAnErrorWhenItIsRead) {
   const Dataset dataset = Dataset::open(folder_);
   const Acquisitions acquisitions(dataset);
   testing::internal::CaptureStderr();
-  EXPECT_THAT(complaint([&] { (void)acquisitions.read(0); }), AllOf(HasSubstr(image), HasSubstr("damaged")));
+  EXPECT_THAT(complaint([&] { (void)acquisitions.read(0); }),
+              AllOf(HasSubstr("camera0/data.csv:2: "), HasSubstr(image), HasSubstr("damaged")));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_TRUE(acquisitions.read(1).image);
 }

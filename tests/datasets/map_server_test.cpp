@@ -12,6 +12,7 @@
 #include <sstream>
 #include <vector>
 
+#include "datasets/format_error.hpp"
 #include "tests/datasets/temporary_folder.hpp"
 
 namespace credo::datasets {
@@ -211,6 +212,23 @@ TEST(MapServer, SaysWhereAMapIsWrong) {
   folder.write("empty.pgm", "");
   expect_error("image: map.png", "image: empty.pgm", 0, "empty.pgm");
   EXPECT_THROW(static_cast<void>(read_map(folder / "none.yaml")), FormatError);
+}
+
+/// OpenCV would say so on the standard error stream.
+TEST(MapServer, ATruncatedPictureIsRefusedQuietly) {
+  const TemporaryFolder folder;
+  folder.write(
+      "map.yaml",
+      "image: map.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n");
+  for (const char* pgm :
+       {"P5\n# a comment\n40 30\n255\n", "P5 40 30 255\n12345", "P5 40 30", "P5\n40 30000000000\n255\n1"}) {
+    folder.write("map.pgm", pgm);
+    testing::internal::CaptureStderr();
+    EXPECT_THROW((void)read_map(folder / "map.yaml"), FormatError) << pgm;
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << pgm;
+  }
+  folder.write("map.pgm", "P5\n# a comment\n3 2\n255\n123456");
+  EXPECT_EQ(read_map(folder / "map.yaml").width, 3);
 }
 
 }  // namespace

@@ -34,6 +34,23 @@ TEST(StagedFolder, AppearsWholeOrNotAtAll) {
   EXPECT_TRUE(fs::exists(folder / "set/whole"));
 }
 
+TEST(StagedFolder, FoldersMadeAboveItGoWithIt) {
+  const TemporaryFolder folder;
+  folder.write("mine/file", "x");
+  { const StagedFolder staged(folder / "mine/new/newer/set", refuse); }
+  EXPECT_FALSE(fs::exists(folder / "mine/new"));
+  EXPECT_TRUE(fs::exists(folder / "mine/file"));
+  {
+    const StagedFolder staged(folder / "mine/new/newer/set", refuse);
+    folder.write("mine/new/note", "of somebody else");
+  }
+  EXPECT_FALSE(fs::exists(folder / "mine/new/newer"));
+  EXPECT_TRUE(fs::exists(folder / "mine/new/note"));
+  StagedFolder staged(folder / "kept/set", refuse);
+  staged.commit();
+  EXPECT_TRUE(fs::exists(folder / "kept/set"));
+}
+
 TEST(StagedFolder, WhatADeadProcessLeftIsRemoved) {
   const TemporaryFolder folder;
   folder.write(".set.unfinished/old", "x");

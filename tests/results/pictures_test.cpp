@@ -55,6 +55,22 @@ TEST(Ticks, AreLabelledWithTheDecimalsOfTheirStep) {
   EXPECT_EQ(tick_label(-1e-17, 0.1), "0.0");
 }
 
+TEST(LengthText, IsInMetresFromOneMetreOn) {
+  EXPECT_EQ(length_text(0.0123), "1.2 cm");
+  EXPECT_EQ(length_text(0.999), "99.9 cm");
+  EXPECT_EQ(length_text(1.0), "1.00 m");
+  EXPECT_EQ(length_text(-12.345), "-12.35 m");
+  EXPECT_EQ(size_text(0.013, 0.012), "1.3 x 1.2 cm");
+  EXPECT_EQ(size_text(363.98, 0.5), "364 x 0 m");
+}
+
+TEST(TypeColor, NoneIsThatOfTheEstimate) {
+  using perception::PrimitiveType;
+  for (const PrimitiveType type :
+       {PrimitiveType::kCorner, PrimitiveType::kEdge, PrimitiveType::kWall, PrimitiveType::kOther})
+    EXPECT_NE(color_of(type), colors::kBlue);
+}
+
 TEST(BeliefColor, GoesFromGreenToRedThroughGrey) {
   EXPECT_EQ(color_of(evidence::BinaryMass{1, 0, 0}), colors::kGreen);
   EXPECT_EQ(color_of(evidence::BinaryMass{0, 1, 0}), colors::kRed);
@@ -114,6 +130,84 @@ TEST(Pictures, TheMapShowsOccupiedCellsUpright) {
   const cv::Mat picture = map_picture(grid);
   EXPECT_EQ(picture.at<cv::Vec3b>(60, 300), cv::Vec3b(36, 30, 28));  // the upper rows of the map are on top
   EXPECT_EQ(picture.at<cv::Vec3b>(600, 300), cv::Vec3b(255, 255, 255));
+}
+
+/// A map of 2 m by 2 m, all of it empty.
+grids::EvidentialGrid small_map(int width) {
+  grids::EvidentialGrid grid(grids::Georeference{.resolution_m = 0.1});
+  for (int x = 0; x < width; ++x)
+    for (int y = 0; y < 20; ++y) grid.add({x, y}, {.empty = 0, .occupied = -5 << 20, .unknown = -5 << 20});
+  return grid;
+}
+
+TEST(Pictures, AWayThatLeadsOutOfTheMapStaysInItsFrame) {
+  const std::vector<geometry::Pose2> way{{1.0, 1.0, 0.0}, {10.0, 1.5, 0.0}, {1.0, 10.0, 0.0}};
+  const cv::Mat picture = map_picture(small_map(20), way);
+  const int right = 16 + 720 + 2, foot = 34 + 720 + 2;
+  EXPECT_TRUE(has(picture(cv::Rect(0, 0, right, foot)), colors::kBlue));
+  EXPECT_FALSE(has(picture(cv::Rect(right, 0, picture.cols - right, picture.rows)), colors::kBlue));
+  EXPECT_FALSE(has(picture(cv::Rect(0, 0, right, 32)), colors::kBlue));
+}
+
+/// Where the scale bar is, in the lower part of the map's panel.
+TEST(Pictures, TheScaleBarOfANarrowMapIsWithinTheMap) {
+  const cv::Mat picture = map_picture(small_map(4));
+  const int middle = 16 + 360, half = 160 / 2 + 12;  // 0.4 m by 2 m (and the margin) in a box 900 pixels high
+  const cv::Rect beside(middle + half, 500, 16 + 720 - middle - half, 430);
+  EXPECT_FALSE(has(picture(beside), colors::kInk));
+}
+
+TEST(Pictures, TheEndsThatTheCameraSharpenedAreToldFromPoints) {
+  perception::Scene scene;
+  for (int i = 0; i < 10; ++i) scene.points.push_back({.position = {2.0, 0.1 * i}});
+  perception::FusedSegment segment;
+  segment.extent = {{2.0, 0.0}, {2.0, 1.0}};
+  scene.segments = {segment};
+  const cv::Mat plain = scan_picture(scene, 0.25);
+  scene.segments[0].source_a = perception::EndpointSource::kCamera;
+  EXPECT_GT(cv::norm(plain, scan_picture(scene, 0.25), cv::NORM_L1), 3000.0);
+}
+
+/// The columns, from the first to the last, in which a part of a picture has a colour.
+std::pair<int, int> columns_with(const cv::Mat& picture, const cv::Rect& part, Color color) {
+  std::pair<int, int> columns{picture.cols, -1};
+  for (int u = part.x; u < part.x + part.width; ++u) {
+    if (!has(picture(cv::Rect(u, part.y, 1, part.height)), color)) continue;
+    columns.first = std::min(columns.first, u);
+    columns.second = u;
+  }
+  return columns;
+}
+
+TEST(Pictures, ABandThatIsCutOffSaysSoInTheLegend) {
+  History all = history();
+  for (int i = 0; i < 3; ++i) all.insert(all.end(), all.begin(), all.end());
+  const cv::Mat whole = error_picture(all);
+  all[7].localization.estimate.covariance(0, 0) = 4.0;
+  const cv::Mat cut = error_picture(all);
+  const cv::Rect head(0, 10, whole.cols, 18);
+  const Color swatch = mixed(colors::kPaper, colors::kSky, 0.4);
+  EXPECT_LT(columns_with(cut, head, swatch).first + 100, columns_with(whole, head, swatch).first);
+}
+
+TEST(Pictures, LargeErrorsAreInMetres) {
+  const cv::Rect unit(0, 60, 24, 120);
+  const cv::Mat small = error_picture(history());
+  History far = history();
+  far[2].truth->x += 20.0;
+  const cv::Mat large = error_picture(far);
+  far[2].truth->x += 20.0;
+  EXPECT_GT(cv::norm(small(unit), large(unit), cv::NORM_L1), 0.0);
+  EXPECT_EQ(cv::norm(large(unit), error_picture(far)(unit), cv::NORM_L1), 0.0);
+}
+
+TEST(Pictures, AMissingScanIsCalledSo) {
+  perception::Scene scene;
+  const cv::Mat missing = scan_picture(scene, 0.25);
+  scene.points.push_back({.position = {1.0, 0.0}});
+  const cv::Rect title(0, 8, missing.cols, 18);
+  EXPECT_LT(columns_with(missing, title, colors::kInk).second + 40,
+            columns_with(scan_picture(scene, 0.25), title, colors::kInk).second);
 }
 
 TEST(Pictures, AVacuousMapIsStillAPicture) { EXPECT_FALSE(map_picture(grids::EvidentialGrid{}).empty()); }

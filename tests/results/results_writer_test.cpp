@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "results/results_folder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace credo::results {
@@ -125,6 +126,12 @@ TEST_F(Results, AnEmptyFolderAndATrailingSlashAreNoObstacle) {
   ResultsWriter writer(target() / "", false);
   writer.finish();
   EXPECT_TRUE(fs::exists(target() / "localization.csv"));
+}
+
+TEST(WriteText, TellsAFullDiskFromAPlaceThatIsNotThere) {
+  const auto complaint_at = [](const fs::path& file) { return [file] { write_text(file, "x"); }; };
+  EXPECT_THAT(complaint_at("/dev/full"), ThrowsMessage<std::runtime_error>(EndsWith("No space left on device")));
+  EXPECT_THAT(complaint_at("/no/such/file"), ThrowsMessage<std::runtime_error>(EndsWith("No such file or directory")));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "sim/random.hpp"
+#include "sim/together.hpp"
 #include "tests/sim/test_worlds.hpp"
 
 namespace credo::sim {
@@ -209,6 +210,30 @@ TEST(Simulation, NeedsASensorAndAWay) {
   world.range_finders.clear();
   world.sonars.clear();
   EXPECT_THROW(Simulation(world, 1), std::invalid_argument);
+}
+
+TEST(Simulation, DrivesThroughNoWall) {
+  World world = short_demo();
+  world.path[1].position = {0.7, 3.5};
+  EXPECT_THROW(Simulation(world, 1), std::invalid_argument);
+  world = short_demo();
+  world.robot_radius_m = 1.5;
+  EXPECT_THROW(Simulation(world, 1), std::invalid_argument);
+}
+
+TEST(Together, EveryIndexIsTakenOnceAndAnExceptionComesOut) {
+  std::vector<std::atomic<int>> taken(100);
+  run_together(3, taken.size(), [&](NextIndex& next) {
+    while (const auto i = next()) ++taken[*i];
+  });
+  for (const auto& times : taken) EXPECT_EQ(times, 1);
+  for (const int threads : {1, 3}) {
+    EXPECT_THROW(run_together(threads, 100,
+                              [](NextIndex& next) {
+                                while (next()) throw std::runtime_error("no memory for an image");
+                              }),
+                 std::runtime_error);
+  }
 }
 
 TEST(Random, StreamsAreIndependentAndNormalIsNormal) {

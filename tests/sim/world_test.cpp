@@ -176,6 +176,45 @@ TEST(WorldFile, ThingsThatFindNoWallSayWhere) {
               HasSubstr("unknown material 'papre'"));
 }
 
+TEST(WorldFile, APathThatCannotBeDrivenSaysWhereAndWhatToDo) {
+  struct Case {
+    const char *from, *to, *line, *says;
+  };
+  const Case cases[] = {
+      {"[2, 1]", "[9, 1]", ":6:", "waypoint [9, 1] is outside of the building: move it into a room"},
+      {"[2, 1]]", "[2, 1], {carried_to: [-3, 1]}]", ":6:", "waypoint [-3, 1] is outside"},
+      {"[2, 1]]", "[2, 1],\n  [3.9, 1]]", ":7:", "comes within 0.1 m of 'wall' at [4, 1]"},
+      {"path:", "  walls: [{points: [[1.5, 0], [1.5, 3]]}]\npath:", ":7:", "drives through 'wall' at [1.5, 1]"},
+      {"path:", "  boxes: [{at: [1.5, 1], size: [0.2, 0.2]}]\npath:", ":7:", "drives through 'cabinet'"},
+      {"path:", "robot_radius: 3\npath:", ":7:", "of radius 3 m, comes within 1 m"},
+      {"path:", "drive: {mode: continuous, turn_radius: 9}\npath: [[0.5, 0.5], [3.5, 0.5], [3.5, 2.95]]\n#",
+       ":7:", "keep the path further away"},
+      {"[[1, 1], [2, 1]]", "[[1, 1], [1, 1]]", ":6:", "two waypoints that are apart"},
+  };
+  for (const Case& c : cases) {
+    const std::string text = complaint(changed(c.from, c.to));
+    EXPECT_THAT(text, HasSubstr(c.says)) << c.to;
+    EXPECT_THAT(text, HasSubstr(c.line)) << c.to;
+  }
+}
+
+TEST(WorldFile, ThePathMayPassUnderALintelAndOverNothing) {
+  EXPECT_EQ(complaint(changed(
+                "path: [[1, 1], [2, 1]]",
+                "    - outline: [[4.2, 0], [8, 0], [8, 3], [4.2, 3]]\n  doors: [{at: [4.0, 1], kind: opening}]\n"
+                "path: [[1, 1], [4.1, 1], [6, 1]]")),
+            "");
+  EXPECT_THAT(complaint(changed("path: [[1, 1], [2, 1]]",
+                                "    - outline: [[4.2, 0], [8, 0], [8, 3], [4.2, 3]]\n  doors: [{at: [4.0, 1]}]\n"
+                                "path: [[1, 1], [6, 1]]")),
+              HasSubstr("drives through"));
+}
+
+TEST(WorldFile, AnEmptyOneIsCalledSo) {
+  EXPECT_THAT(complaint(""), testing::EndsWith("world.yaml: is empty; expected a world file"));
+  EXPECT_THAT(complaint("# nothing\n"), HasSubstr("is empty"));
+}
+
 /// The example in the manual uses every key; what it calls a default is one.
 TEST(WorldFile, TheManualsExampleLoadsAndItsDefaultsAreTrue) {
   std::ifstream manual(std::string(CREDO_SOURCE_DIR) + "/sim/worlds/README.md");
