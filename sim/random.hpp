@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string_view>
 
 namespace credo::sim {
 
@@ -14,6 +15,12 @@ namespace credo::sim {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
   return x ^ (x >> 31);
+}
+
+/// The seed of one world's draws: worlds of different names are independent under the same seed.
+[[nodiscard]] constexpr std::uint64_t seed_of_world(std::uint64_t seed, std::string_view name) {
+  for (const char letter : name) seed = mix_bits(seed ^ static_cast<unsigned char>(letter));
+  return seed;
 }
 
 /// Random numbers that are a function of (seed, stream, index, how many were drawn): every reading has its own stream,

@@ -143,7 +143,7 @@ struct Simulation::Parts {
 
   Parts(World the_world, std::uint64_t the_seed)
       : world(checked(std::move(the_world))),
-        seed(the_seed),
+        seed(seed_of_world(the_seed, world.name)),
         way(drivable(world)),
         rig(calibrated_rig(world)),
         plan(draw_floor_plan(world, plan_height(world), seed)),

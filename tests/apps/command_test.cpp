@@ -332,7 +332,7 @@ TEST_F(Command, AResolutionTooFineForTheSensorsIsRefused) {
   write("small.yaml", std::regex_replace(read("small.yaml"), std::regex("opensimple,"), "opensimple, range_max: 5,"));
   ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
   for (const char* command : {"run", "map"}) {
-    const Answer answer = credo(std::string(command) + " data --resolution 0.001 --out out");
+    const Answer answer = credo(std::string(command) + " data --resolution 0.0015 --out out");
     EXPECT_EQ(answer.status, 1) << command;
     EXPECT_THAT(answer.error, AllOf(HasSubstr("data: range finder"), HasSubstr("choose one between"))) << command;
     EXPECT_FALSE(fs::exists(folder_ / "out")) << command;
