@@ -132,15 +132,16 @@ std::string to_yaml(const RunConfig& config) {
   out += "map_poses: " + yaml_quoted(config.map_poses) + "\n";
   const bool paper = config.localizer.method == perception::Method::kPaper;
   out += "belief_yes: >-\n  Mass on \"the localization is correct\", fused by ";
-  out += paper ? "Dempster's rule from the number of matched primitives, the\n"
-                 "  share of the detected ones that were matched, and the existence of each matched track (Clerentin et "
-                 "al., sec. 4.5).\n"
-               : "conflict to ignorance from the number of matched\n"
-                 "  primitives, the share of the detected ones that the plan explains, the share of the plan's points in "
-                 "sight that are\n"
-                 "  recognised, the share of the scan that lies on the plan, and the mean existence of the matched tracks "
-                 "(after Clerentin\n"
-                 "  et al., sec. 4.5). Halved where the pose contradicts its prediction, faded where nothing is seen.\n";
+  out +=
+      paper ? "Dempster's rule from the number of matched primitives, the\n"
+              "  share of the detected ones that were matched, and the existence of each matched track (Clerentin et "
+              "al., sec. 4.5).\n"
+            : "conflict to ignorance from the number of matched\n"
+              "  primitives, the share of the detected ones that the plan explains, the share of the plan's points in "
+              "sight that are\n"
+              "  recognised, the share of the scan that lies on the plan, and the mean existence of the matched tracks "
+              "(after Clerentin\n"
+              "  et al., sec. 4.5). Halved where the pose contradicts its prediction, faded where nothing is seen.\n";
   out +=
       "  It is a degree of belief, not a calibrated probability of a bounded error: no integrity monitor has looked, "
       "and the\n"

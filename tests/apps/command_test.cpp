@@ -329,7 +329,7 @@ TEST_F(Command, OfALogOnlyTheSensorsAskedForAreMapped) {
 
 TEST_F(Command, AResolutionTooFineForTheSensorsIsRefused) {
   write_small_world();
-  write("small.yaml", std::regex_replace(read("small.yaml"), std::regex("opensimple,"), "opensimple, range_max: 5,"));
+  write("small.yaml", std::regex_replace(read("small.yaml"), std::regex("opensimple,"), "opensimple, range_max: 8,"));
   ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
   for (const char* command : {"run", "map"}) {
     const Answer answer = credo(std::string(command) + " data --resolution 0.0015 --out out");
