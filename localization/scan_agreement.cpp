@@ -92,7 +92,7 @@ Pose2 ScanMatcher::search(std::span<const ScanPoint> points, const geometry::Pos
               steps(1, params_.search_at_most_m, params_.search_step_m),
               steps(2, params_.search_at_most_rad, params_.search_step_rad), params_.search_step_m,
               params_.search_step_rad);
-  for (double finer = 0.5; finer > 0.1; finer *= 0.5)
+  for (const double finer : {0.5, 0.25, 0.125})
     look_around(Pose2(best), 1, 1, 1, finer * params_.search_step_m, finer * params_.search_step_rad);
   return best;
 }
