@@ -11,7 +11,7 @@ namespace credo::localization {
 using Eigen::Vector2d;
 
 DistanceField::DistanceField(std::span<const geometry::Segment> walls) {
-  constexpr double kMostCells = 4e6;
+  constexpr double kMostTiles = 4e6;
   if (walls.empty()) return;
   Vector2d low = walls.front().a, high = low;
   for (const geometry::Segment& wall : walls) {
@@ -20,10 +20,12 @@ DistanceField::DistanceField(std::span<const geometry::Segment> walls) {
   }
   origin_ = low - Vector2d::Constant(kReach_m);
   const Vector2d size = high - low + Vector2d::Constant(2.0 * kReach_m);
-  cells_per_m_ = std::min(cells_per_m_, std::sqrt(kMostCells / (size.x() * size.y())));
-  columns_ = static_cast<int>(std::ceil(size.x() * cells_per_m_));
-  rows_ = static_cast<int>(std::ceil(size.y() * cells_per_m_));
-  cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 255);
+  cells_per_m_ = std::min(cells_per_m_, kTileSide * std::sqrt(kMostTiles / (size.x() * size.y())));
+  const auto tiles = [&](double extent_m) { return static_cast<int>(std::ceil(extent_m * cells_per_m_ / kTileSide)); };
+  tiles_in_row_ = static_cast<std::size_t>(tiles(size.x()));
+  columns_ = kTileSide * tiles(size.x());
+  rows_ = kTileSide * tiles(size.y());
+  directory_.assign(tiles_in_row_ * static_cast<std::size_t>(tiles(size.y())), -1);
   for (const geometry::Segment& wall : walls) add(wall);
 }
 
@@ -45,13 +47,22 @@ void DistanceField::add(const geometry::Segment& wall) {
     const double x1 = a.x() + from * (b.x() - a.x()), x2 = a.x() + to * (b.x() - a.x());
     const int first = clamped(std::min(x1, x2) - reach, columns_);
     const int last = clamped(std::max(x1, x2) + reach + 1.0, columns_);
-    std::uint8_t* cell = cells_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_);
     for (int column = first; column < last; ++column) {
       const Vector2d centre = origin_ + Vector2d(column + 0.5, row + 0.5) / cells_per_m_;
       const double units = geometry::distance(centre, wall) / kUnit_m;
-      if (units < cell[column]) cell[column] = static_cast<std::uint8_t>(units);
+      if (units < 255.0) lower(column, row, static_cast<std::uint8_t>(units));
     }
   }
+}
+
+void DistanceField::lower(int x, int y, std::uint8_t units) {
+  std::int32_t& tile = directory_[directory_place(x, y)];
+  if (tile < 0) {
+    tile = static_cast<std::int32_t>(cells_.size() >> (2 * kTileBits));
+    cells_.resize(cells_.size() + kTileSide * kTileSide, 255);
+  }
+  std::uint8_t& cell = cells_[cell_place(tile, x, y)];
+  cell = std::min(cell, units);
 }
 
 }  // namespace credo::localization

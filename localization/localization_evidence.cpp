@@ -58,21 +58,40 @@ void add_unexplained(const Primitive& primitive, PlanAgreement agreement, const 
   if (primitive.type == PrimitiveType::kWall) evidence.explained += params.on_plan_weight * believed;
 }
 
+/// Whether something that the plan does not have stands before a place: all beams towards it end nearer.
+/// \param place  in the base frame
+bool hidden_by_clutter(const Scene& scene, const Vector2d& place, const LocalizationEvidenceParams& params) {
+  const double distance = place.norm();
+  const Vector2d direction = place / std::max(distance, 1e-9);
+  bool nearer = false;
+  for (const sensors::ScanPoint& point : scene.points) {
+    const double along = point.position.dot(direction);
+    const double across = point.position.x() * direction.y() - point.position.y() * direction.x();
+    if (!(along > 0.0) || std::abs(across) > params.beside_rad * along) continue;
+    if (along >= distance - params.clutter_m) return false;
+    nearer = true;
+  }
+  return nearer;
+}
+
 /// Points of the plan that should be seen from the pose, and those that are. Marks without relief are the camera's
 /// alone.
 void count_points_in_sight(const Scene& scene, const LandmarkMap& map, std::span<const Observation> observations,
                            const PoseSolution& solution, const LocalizationEvidenceParams& params,
                            LocalizationEvidence& evidence) {
   const Vector2d viewpoint = solution.pose.pose.translation();
+  const geometry::Pose2 T_base_map = solution.pose.pose.inverse();
   for (std::size_t k = 0; k < map.points().size(); ++k) {
     const PointLandmark& point = map.points()[k];
     const bool hidden = (point.position - viewpoint).norm() > params.sight_m ||
                         !(point.vertical ? scene.camera_seen : scene.camera_seen || scene.range_finder_seen) ||
                         !map.type_from(point, viewpoint) || !map.shows(viewpoint, point.position);
     if (hidden) continue;
-    ++evidence.in_sight;
     const auto is_it = [id = map.point_id(k)](const Observation& o) { return o.landmark == id; };
-    evidence.recognised += any_agreeing(observations, solution, is_it) ? 1 : 0;
+    const bool recognised = any_agreeing(observations, solution, is_it);
+    if (!recognised && hidden_by_clutter(scene, T_base_map * point.position, params)) continue;
+    ++evidence.in_sight;
+    evidence.recognised += recognised ? 1 : 0;
   }
 }
 

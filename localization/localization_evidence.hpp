@@ -32,7 +32,9 @@ struct LocalizationEvidenceParams {
   double on_plan_at_most_m = 0.15;  ///< but nothing farther, however unsure the pose is
   double on_plan_weight = 0.5;      ///< of something that lies on a wall of the plan without being a landmark
   double unmapped_weight = 0.25;    ///< of something in the plan's free space, against the localization
-  double sight_m = 4.0;             ///< a point of the plan this near should be seen where nothing hides it
+  double sight_m = 4.0;             ///< a point of the plan this near should be seen where nothing hides it:
+  double clutter_m = 0.15;          ///< something so much nearer than the point hides it, where all beams
+  double beside_rad = 0.03;         ///< that pass so near beside the point say so
 };
 
 /// Holds a scene against the plan as seen from a pose. Under the paper's method a primitive is matched or not. Under

@@ -64,13 +64,23 @@ void check(const LocalizerParams& params) {
   evidence::check(params.belief.count, "localizer: belief.count");
   evidence::check(params.belief.ratio, "localizer: belief.ratio");
   evidence::check(params.belief.recognised, "localizer: belief.recognised");
+  evidence::check(params.belief.scan_agreement, "localizer: belief.scan_agreement");
   require(params.matching_rounds >= 1, "matching_rounds has to be at least 1");
   require(params.solver.robust_scale > 0.0, "solver.robust_scale has to be positive");
   require(params.solver.reweightings >= 1, "solver.reweightings has to be at least 1");
   require(params.solver.outlier_probability > 0.0 && params.solver.outlier_probability < 1.0,
           "solver.outlier_probability has to be in (0, 1)");
-  for (const double reliability : {params.belief.wall_reliability, params.belief.other_reliability,
-                                   params.contradiction_reliability, params.blind_reliability})
+  const ScanAgreementParams& scan = params.scan;
+  require(scan.most_points >= 1 && scan.least_points >= 1,
+          "scan.most_points and scan.least_points have to be positive");
+  require(scan.on_plan_m > 0.0 && scan.on_plan_sigmas >= 0.0 && scan.before_weight >= 0.0,
+          "scan: the tolerance has to be positive, its other numbers may not be negative");
+  require(scan.search_step_m >= 0.01 && scan.search_step_rad >= 0.002 && scan.search_at_most_m <= 10.0 &&
+              scan.search_at_most_rad <= 3.2,
+          "scan: a search has steps of at least 0.01 m and 0.002 rad and reaches 10 m and half a turn at most");
+  for (const double reliability :
+       {params.unchecked_reliability, params.belief.wall_reliability, params.belief.other_reliability,
+        params.contradiction_reliability, params.blind_reliability})
     require(reliability >= 0.0 && reliability <= 1.0, "a reliability has to be in [0, 1]");
 }
 
@@ -116,6 +126,7 @@ struct Localizer::State {
   PoseSolution solution;
   LocalizationEvidence evidence;  ///< about `current`
   int matched_before = 0;         ///< primitives that the latest fix rests on
+  int unchecked = 0;              ///< acquisitions since the scan last lay on the plan
   PoseHistory history;
   MotionPredictor predictor;
   std::map<int, int> contradictions;  ///< in a row, by track id
@@ -149,6 +160,7 @@ struct Localizer::State {
   [[nodiscard]] LocalizationEvidence gather(const Scene& scene) const;
   [[nodiscard]] double quality(const LocalizationEvidence& found, const Scene& scene) const;
   void search_pose(const Scene& scene, const SplitPose& predicted, bool odometry);
+  bool match_anew(const Scene& scene, const SplitPose& expected);
   [[nodiscard]] Localization report(const Scene& scene) const;
   void weigh(const Scene& scene, Localization& fix);
   void remember(const Localization& fix);
@@ -325,8 +337,15 @@ void Localizer::State::search_pose(const Scene& scene, const SplitPose& predicte
   if (!off_plan && !unrecognised && !lost_sight) return;
   SplitPose wide = predicted;
   wide.independent += doubt();
-  if (!odometry) wide.independent(2, 2) += params.unforeseen_turn_sigma_rad * params.unforeseen_turn_sigma_rad;
-  const Pose2 other = scan_matcher.search(scene.points, {wide.pose, wide.covariance()});
+  if (match_anew(scene, wide) || odometry) return;
+  wide.independent(2, 2) += params.unforeseen_turn_sigma_rad * params.unforeseen_turn_sigma_rad;
+  match_anew(scene, wide);
+}
+
+/// Matches everything from the pose that the scan fits best about an expected one.
+/// \returns whether that is better than what was there, which is kept else.
+bool Localizer::State::match_anew(const Scene& scene, const SplitPose& expected) {
+  const Pose2 other = scan_matcher.search(scene.points, {expected.pose, expected.covariance()});
   const double position = params.searched_sigma_m * params.searched_sigma_m;
   const double turn = params.searched_sigma_rad * params.searched_sigma_rad;
 
@@ -336,17 +355,19 @@ void Localizer::State::search_pose(const Scene& scene, const SplitPose& predicte
   const PoseSolution solution_before = solution;
   wall_in_use.assign(scene.segments.size(), false);
   solve(scene, {other, Eigen::Vector3d(position, position, turn).asDiagonal(), Matrix3d::Zero()});
-  match_map(scene, wide);
+  match_map(scene, expected);
   const LocalizationEvidence found = gather(scene);
   if (quality(found, scene) > quality(evidence, scene) + params.search_gain) {
     evidence = found;
+    contradictions.clear();
     for (std::size_t t = 0; t < tracker.tracks().size(); ++t) tracker.relabel(static_cast<int>(t), kNoLandmark);
-    return;
+    return true;
   }
   current = pose_before;
   observations = std::move(observations_before);
   new_matches = std::move(matches_before);
   solution = solution_before;
+  return false;
 }
 
 /// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
@@ -450,6 +471,8 @@ Localization Localizer::State::report(const Scene& scene) const {
 /// fades into not knowing.
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   evidence.tracks = tracker.tracks();
+  const bool on_plan = evidence.scan_agreement && agreement_belief(evidence, params.belief).no < 0.5;
+  unchecked = on_plan ? 0 : unchecked + 1;
   const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
   const evidence::FusedBinaryMass belief =
       scene.primitives.empty() ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
@@ -460,6 +483,8 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   fix.innovation = solution.prior_mahalanobis_squared;
   if (fix.innovation > params.status.max_innovation)
     fix.belief = evidence::discount(fix.belief, params.contradiction_reliability);
+  if (params.method == perception::Method::kDefault && unchecked > params.checked_for)
+    fix.belief = evidence::discount(fix.belief, params.unchecked_reliability);
   fix.unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
   fix.off_plan = agreement_belief(evidence, params.belief).no > 0.0;
   if (fix.unrecognised || fix.off_plan) {

@@ -44,8 +44,10 @@ struct LocalizerParams {
   double doubt_sigma_m = 0.3;  ///< how far the pose may be off where the points in sight are not recognised
   double doubt_sigma_rad = 0.05;
   double contradiction_reliability = 0.5;  ///< of the belief where the pose contradicts its prediction
-  double blind_reliability = 0.8;          ///< of the last belief where nothing at all is seen
-  int contradictions_allowed = 1;          ///< a track that contradicts the pose more often in a row loses its landmark
+  int checked_for = 3;                     ///< so many acquisitions a scan that lay on the plan vouches for;
+  double unchecked_reliability = 0.75;  ///< of the belief after that: nothing but what was matched speaks for the pose
+  double blind_reliability = 0.8;       ///< of the last belief where nothing at all is seen
+  int contradictions_allowed = 1;       ///< a track that contradicts the pose more often in a row loses its landmark
 
   /// The parameters with `method` handed down to every part.
   [[nodiscard]] LocalizerParams with_method(perception::Method chosen) const;

@@ -24,8 +24,9 @@ std::size_t stride(std::size_t points, int most) {
 }  // namespace
 
 std::optional<double> ScanAgreement::share(const ScanAgreementParams& params) const {
-  if (on_plan + before + behind < params.least_points) return {};
-  return on_plan / (on_plan + behind + params.before_weight * before);
+  const double weight = on_plan + behind + params.before_weight * before;
+  if (on_plan + before + behind < params.least_points || !(weight > 0.0)) return {};
+  return on_plan / weight;
 }
 
 ScanMatcher::ScanMatcher(const LandmarkMap& map, const ScanAgreementParams& params)
@@ -33,6 +34,7 @@ ScanMatcher::ScanMatcher(const LandmarkMap& map, const ScanAgreementParams& para
 
 ScanAgreement ScanMatcher::compare(std::span<const ScanPoint> points, const Pose2& T_map_base) const {
   ScanAgreement agreement;
+  if (field_.resolution_m() > params_.on_plan_m) return agreement;  // the cells of an enormous plan cannot tell
   const Eigen::Matrix2d R = T_map_base.rotation();
   for (std::size_t i = 0; i < points.size(); i += stride(points.size(), params_.most_points)) {
     const ScanPoint& point = points[i];
@@ -61,24 +63,24 @@ Pose2 ScanMatcher::search(std::span<const ScanPoint> points, const geometry::Pos
   for (std::size_t i = 0; i < points.size(); i += stride(points.size(), params_.most_points))
     chosen_.push_back(points[i].position);
   if (chosen_.empty()) return expected.pose;
-  turned_.resize(chosen_.size());
   const Eigen::Matrix3d information = expected.covariance.inverse();
   Pose2 best = expected.pose;
   double highest = -std::numeric_limits<double>::infinity();
   // All poses so many steps to either side of a centre.
   const auto look_around = [&](const Pose2& centre, int steps_x, int steps_y, int steps_turn, double step_m,
-                               double step_rad) {
+                               double step_rad, std::size_t every) {
     for (int k = -steps_turn; k <= steps_turn; ++k) {
       const double theta = geometry::wrap_angle(centre.theta + k * step_rad);
       const Eigen::Matrix2d R = Pose2{0.0, 0.0, theta}.rotation();
-      for (std::size_t i = 0; i < chosen_.size(); ++i) turned_[i] = R * chosen_[i];
+      turned_.clear();
+      for (std::size_t i = 0; i < chosen_.size(); i += every) turned_.push_back(R * chosen_[i]);
       for (int i = -steps_x; i <= steps_x; ++i)
         for (int j = -steps_y; j <= steps_y; ++j) {
           const Pose2 pose{centre.x + i * step_m, centre.y + j * step_m, theta};
           const Vector3d step(pose.x - expected.pose.x, pose.y - expected.pose.y,
                               geometry::wrap_angle(theta - expected.pose.theta));
           const double score = fit(pose) - params_.prior_weight * step.dot(information * step);
-          if (score <= highest) continue;
+          if (!(score > highest)) continue;
           highest = score;
           best = pose;
         }
@@ -91,9 +93,10 @@ Pose2 ScanMatcher::search(std::span<const ScanPoint> points, const geometry::Pos
   look_around(expected.pose, steps(0, params_.search_at_most_m, params_.search_step_m),
               steps(1, params_.search_at_most_m, params_.search_step_m),
               steps(2, params_.search_at_most_rad, params_.search_step_rad), params_.search_step_m,
-              params_.search_step_rad);
+              params_.search_step_rad, 2);
+  highest = -std::numeric_limits<double>::infinity();
   for (const double finer : {0.5, 0.25, 0.125})
-    look_around(Pose2(best), 1, 1, 1, finer * params_.search_step_m, finer * params_.search_step_rad);
+    look_around(Pose2(best), 1, 1, 1, finer * params_.search_step_m, finer * params_.search_step_rad, 1);
   return best;
 }
 

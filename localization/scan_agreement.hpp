@@ -17,14 +17,14 @@ struct ScanAgreementParams {
   int least_points = 30;        ///< fewer say nothing
   double on_plan_m = 0.10;      ///< a point this near to a wall of the plan, and
   double on_plan_sigmas = 2.0;  ///< so many of its standard deviations, lies on it
-  double before_weight = 0.25;  ///< of a point in the plan's free space: something may have been put there
+  double before_weight = 0.10;  ///< of a point in the plan's free space: something may have been put there
 
   // The search, in steps around the pose that is expected.
   double search_sigmas = 2.5;       ///< how far, in the expected pose's standard deviations, but
   double search_at_most_m = 1.0;    ///< no farther
   double search_at_most_rad = 1.6;  ///< and no turn larger
   double search_step_m = 0.10;
-  double search_step_rad = 0.0175;  ///< 1 degree
+  double search_step_rad = 0.0262;  ///< 1.5 degrees
   double prior_weight = 0.004;      ///< of a squared Mahalanobis distance from the expected pose, against the mean fit
 };
 
@@ -44,12 +44,14 @@ class ScanMatcher {
   /// \param map  must outlive this
   explicit ScanMatcher(const LandmarkMap& map, const ScanAgreementParams& params = {});
 
+  /// No points where the plan is so large (kilometres) that the field is coarser than on_plan_m.
   /// \param points  in the base frame
   [[nodiscard]] ScanAgreement compare(std::span<const sensors::ScanPoint> points,
                                       const geometry::Pose2& T_map_base) const;
 
   /// The pose about an expected one from which most points lie near walls: exhaustive in steps (Olson, ICRA 2009), then
   /// refined. Where the plan looks the same along a direction the expected pose decides.
+  /// \param expected  its covariance is positive definite
   [[nodiscard]] geometry::Pose2 search(std::span<const sensors::ScanPoint> points,
                                        const geometry::PoseEstimate& expected);
 

@@ -90,12 +90,11 @@ bool within(const std::vector<Point>& polygon, const Point& p, double margin_m) 
   return inside;
 }
 
-/// In a room, or in a doorway; in a world without rooms, in the rectangle around its walls.
-bool in_building(const World& world, const Point& p) {
-  constexpr double kHalfDoorway_m = 0.5;  // of the thickest wall
+/// In a room, or at most `margin_m` outside of one; in a world without rooms, in the rectangle around its walls.
+bool in_building(const World& world, const Point& p, double margin_m) {
   if (!world.areas.empty())
     return std::any_of(world.areas.begin(), world.areas.end(),
-                       [&](const std::vector<Point>& area) { return within(area, p, kHalfDoorway_m); });
+                       [&](const std::vector<Point>& area) { return within(area, p, margin_m); });
   Eigen::AlignedBox2d box;
   for (const Panel& panel : world.panels) box.extend(panel.a).extend(panel.b);
   return box.contains(p);
@@ -115,10 +114,23 @@ std::size_t waypoint_after(const std::vector<Waypoint>& path, const Point& at) {
   return nearest;
 }
 
-std::optional<Obstruction> find_waypoint_outside(const World& world) {
+/// Waypoints may lie in the doorway of a usual wall; on its way the robot may pass one of the thickest.
+std::optional<Obstruction> find_place_outside(const World& world, const Trajectory& way) {
+  constexpr double kHalfWall_m = 0.2, kHalfThickestWall_m = 0.5, kStep_m = 0.1;
   for (std::size_t i = 0; i < world.path.size(); ++i)
-    if (const Point& at = world.path[i].position; !in_building(world, at))
+    if (const Point& at = world.path[i].position; !in_building(world, at, kHalfWall_m))
       return Obstruction{i, "waypoint " + text_of(at) + " is outside of the building: move it into a room"};
+  for (const Segment& stretch : way.stretches()) {
+    const int steps = static_cast<int>(std::ceil(stretch.length() / kStep_m));
+    for (int k = 1; k < steps; ++k) {
+      const Point at = stretch.a + (stretch.b - stretch.a) * (static_cast<double>(k) / steps);
+      if (in_building(world, at, kHalfThickestWall_m)) continue;
+      const std::size_t waypoint = waypoint_after(world.path, stretch.b);
+      return Obstruction{waypoint, "the robot is outside of the building at " + text_of(at) +
+                                       " on its way to waypoint " + text_of(world.path[waypoint].position) +
+                                       ": lead the path through rooms"};
+    }
+  }
   return std::nullopt;
 }
 
@@ -126,7 +138,7 @@ std::optional<Obstruction> find_waypoint_outside(const World& world) {
 
 std::optional<Obstruction> find_obstruction(const World& world, const Trajectory& way) {
   constexpr double kTouch_m = 1e-6;
-  if (auto outside = find_waypoint_outside(world)) return outside;
+  if (auto outside = find_place_outside(world, way)) return outside;
   const double height = height_of_robot(world), radius = world.robot_radius_m;
   for (const Segment& stretch : way.stretches()) {
     Approach nearest;

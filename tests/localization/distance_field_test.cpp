@@ -42,11 +42,19 @@ TEST(DistanceField, OutsideOfThePlanEverythingIsFar) {
     EXPECT_DOUBLE_EQ(field(point), DistanceField::kReach_m) << point.transpose();
 }
 
-TEST(DistanceField, AHugePlanGetsCoarserCells) {
-  const std::vector<Segment> walls{{{0, 0}, {2000, 0}}, {{2000, 0}, {2000, 1000}}};
+TEST(DistanceField, AFarWallDoesNotCoarsenTheOthers) {
+  const std::vector<Segment> walls{{{0, 0}, {5, 0}}, {{2000, 1000}, {2005, 1000}}};
   const DistanceField field(walls);
-  EXPECT_GT(field.resolution_m(), 0.5);
-  EXPECT_LT(field({1000, 0}), DistanceField::kReach_m + 1e-9);
+  EXPECT_DOUBLE_EQ(field.resolution_m(), 0.05);
+  EXPECT_NEAR(field({2.5, 0.2}), 0.2, 0.04);
+  EXPECT_NEAR(field({2002, 1000.1}), 0.1, 0.04);
+}
+
+TEST(DistanceField, AnEnormousPlanGetsCoarserCells) {
+  const std::vector<Segment> walls{{{0, 0}, {5, 0}}, {{1e6, 1e6}, {1e6 + 5, 1e6}}};
+  const DistanceField field(walls);
+  EXPECT_GT(field.resolution_m(), 1.0);
+  EXPECT_LE(field({2.5, 0.2}), DistanceField::kReach_m);
 }
 
 }  // namespace

@@ -79,6 +79,16 @@ TEST_F(EmptyRoom, CountsThePointsInSightAndThoseRecognised) {
   EXPECT_EQ(evidence().in_sight, 0) << "who sees nothing misses nothing";
 }
 
+TEST_F(EmptyRoom, WhatStandsBeforeAPointHidesIt) {
+  match({0, 0});
+  ASSERT_EQ(evidence().in_sight, 4);
+  const Vector2d to_corner = Vector2d(4, 0) - Vector2d(1, 1);
+  scene_.points.push_back({.position = 0.6 * to_corner});
+  EXPECT_EQ(evidence().in_sight, 3);
+  scene_.points.push_back({.position = to_corner});
+  EXPECT_EQ(evidence().in_sight, 4) << "one beam passes";
+}
+
 TEST_F(EmptyRoom, AnOutlierIsNeitherMatchedNorRecognised) {
   match({0, 0}, true);
   EXPECT_EQ(evidence().matched, 0);

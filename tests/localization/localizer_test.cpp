@@ -211,6 +211,26 @@ TEST(Localizer, FindsBackFromATurnThatOdometryGotWrong) {
   }
 }
 
+TEST(Localizer, AfterAWhileWithoutAScanNothingChecksWhatIsMatched) {
+  Drive drive(9);
+  Pipeline localize(room(), given({1.0, 1.5, 0.0}));
+  Pose2 truth{1.0, 1.5, 0.0};
+  const Pose2 step{0.1, 0.0, 0.02};
+  for (int i = 0; i < 12; ++i) {
+    sensors::Acquisition acquisition = drive.acquire(truth, step);
+    localize.localizer.with_path(acquisition);
+    perception::Scene scene = localize.observer.observe(acquisition);
+    const bool unchecked = i >= 4;
+    if (unchecked) scene.points.clear();  // the primitives stay
+    const Localization fix = localize.localizer.update(scene, acquisition.motion);
+    if (i < 7)
+      EXPECT_GT(fix.belief.yes, 0.8) << "acquisition " << i;
+    else
+      EXPECT_LE(fix.belief.yes, 0.75) << "acquisition " << i;
+    truth = truth * step;
+  }
+}
+
 TEST(Localizer, WithoutAPlanItGivesTheMotionFromItsStart) {
   Drive drive(6);
   Pipeline localize({}, std::nullopt);

@@ -210,6 +210,15 @@ TEST(WorldFile, ThePathMayPassUnderALintelAndOverNothing) {
               HasSubstr("drives through"));
 }
 
+TEST(WorldFile, ThePathStaysIndoorsBetweenRoomsToo) {
+  EXPECT_THAT(complaint(changed("path: [[1, 1], [2, 1]]",
+                                "    - outline: [[9, 0], [13, 0], [13, 3], [9, 3]]\n  doors: [{at: [4.0, 1], kind: "
+                                "opening}, {at: [9.0, 1], kind: opening}]\npath: [[1, 1], [11, 1]]")),
+              HasSubstr("is outside of the building at [4."));
+  EXPECT_THAT(complaint(changed("[[1, 1], [2, 1]]", "[[-0.4, 1], [-0.4, 2]]")),
+              HasSubstr("waypoint [-0.4, 1] is outside"));
+}
+
 TEST(WorldFile, AnEmptyOneIsCalledSo) {
   EXPECT_THAT(complaint(""), testing::EndsWith("world.yaml: is empty; expected a world file"));
   EXPECT_THAT(complaint("# nothing\n"), HasSubstr("is empty"));
