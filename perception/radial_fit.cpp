@@ -38,11 +38,12 @@ Normal accumulate(std::span<const RadialPoint> points, const RadialFit& fit, dou
   return sum;
 }
 
-/// Of the residuals, in expected standard deviations, by their median: up to half of the points may be outliers. >= 1.
+/// Of the residuals, in expected standard deviations, by the median of some of them: up to half of the points may be
+/// outliers. >= 1.
 double spread(std::span<const RadialPoint> points, const RadialFit& fit) {
-  constexpr std::size_t kMost = 512;
+  constexpr std::size_t kMost = 32;
   std::array<double, kMost> magnitudes{};
-  const std::size_t step = 1 + points.size() / kMost;
+  const std::size_t step = 1 + (points.size() - 1) / kMost;
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.size(); i += step) magnitudes[count++] = std::abs(residual(points[i], fit));
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(count / 2);
