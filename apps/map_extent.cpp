@@ -16,17 +16,6 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-bool has_pose(const sensors::MotionPath& path, sensors::Timestamp time, double max_gap_s) {
-  const auto& rows = path.rows();
-  const auto after =
-      std::lower_bound(rows.begin(), rows.end(), time,
-                       [](const sensors::OdometryReading& row, sensors::Timestamp t) { return row.time < t; });
-  const auto near = [&](const sensors::OdometryReading& row) {
-    return sensors::seconds_between(std::min(row.time, time), std::max(row.time, time)) <= max_gap_s;
-  };
-  return (after != rows.end() && near(*after)) || (after != rows.begin() && near(*(after - 1)));
-}
-
 /// How far a reading lets a sensor see; 0 for one that says nothing.
 /// \param open_m  how far an open beam is believed; its end leaves little evidence
 template <typename Sensor>
@@ -45,7 +34,7 @@ Eigen::AlignedBox2d seen_ground(const sensors::MotionPath& T_map_base, const sen
   if (T_map_base.empty()) return box;
   const mapping::ScanParams& p = params.mapper.scan;
   for (const sensors::RangeScan& scan : scans) {
-    if (!has_pose(T_map_base, scan.time, params.max_gap_s)) continue;
+    if (!mapping::covers(T_map_base, scan.time, params.max_gap_s)) continue;
     const sensors::RangeFinder& finder = rig.range_finders.at(static_cast<std::size_t>(scan.sensor));
     const geometry::Pose2 T_map_sensor = T_map_base.pose_at(scan.time) * finder.T_base_sensor;
     const double reach_m = std::min(finder.range_max_m, p.max_range_m);
@@ -57,7 +46,7 @@ Eigen::AlignedBox2d seen_ground(const sensors::MotionPath& T_map_base, const sen
     }
   }
   for (const sensors::SonarSweep& sweep : sweeps) {
-    if (!has_pose(T_map_base, sweep.time, params.max_gap_s)) continue;
+    if (!mapping::covers(T_map_base, sweep.time, params.max_gap_s)) continue;
     const sensors::SonarRing& ring = rig.sonar_rings.at(static_cast<std::size_t>(sweep.sensor));
     const geometry::Pose2 T_map_sweep = T_map_base.pose_at(sweep.time);
     for (std::size_t i = 0; i < std::min(sweep.ranges_m.size(), ring.T_base_transducer.size()); ++i) {

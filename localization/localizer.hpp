@@ -53,6 +53,9 @@ struct LocalizerParams {
   [[nodiscard]] LocalizerParams with_method(perception::Method chosen) const;
 };
 
+/// \throws std::invalid_argument for parameters out of their range
+void check(const LocalizerParams& params);
+
 /// Tracks + map -> Localization: the dynamic localization of Clerentin et al., sec. 4.
 class Localizer {
  public:

@@ -12,20 +12,6 @@
 namespace credo::mapping {
 namespace {
 
-/// Whether a trajectory has a pose within `max_gap_s` of a time, on the side or sides that it is interpolated from.
-bool covers(const sensors::MotionPath& trajectory, sensors::Timestamp time, double max_gap_s) {
-  const auto& rows = trajectory.rows();
-  const auto after =
-      std::lower_bound(rows.begin(), rows.end(), time,
-                       [](const sensors::OdometryReading& row, sensors::Timestamp t) { return row.time < t; });
-  const auto near = [&](const sensors::OdometryReading& row) {
-    return sensors::seconds_between(std::min(row.time, time), std::max(row.time, time)) <= max_gap_s;
-  };
-  const bool before_is_near = after != rows.begin() && near(*(after - 1));
-  const bool after_is_near = after != rows.end() && near(*after);
-  return before_is_near || after_is_near;
-}
-
 /// Calls insert(i) for all i below `count`, on all cores, and says after each batch how many are done.
 template <typename Insert, typename Done>
 void insert_in_batches(std::size_t count, const Insert& insert, const Done& done) {
@@ -44,6 +30,19 @@ struct Worker {
 };
 
 }  // namespace
+
+bool covers(const sensors::MotionPath& trajectory, sensors::Timestamp time, double max_gap_s) {
+  const auto& rows = trajectory.rows();
+  const auto after =
+      std::lower_bound(rows.begin(), rows.end(), time,
+                       [](const sensors::OdometryReading& row, sensors::Timestamp t) { return row.time < t; });
+  const auto near = [&](const sensors::OdometryReading& row) {
+    return sensors::seconds_between(std::min(row.time, time), std::max(row.time, time)) <= max_gap_s;
+  };
+  const bool before_is_near = after != rows.begin() && near(*(after - 1));
+  const bool after_is_near = after != rows.end() && near(*after);
+  return before_is_near || after_is_near;
+}
 
 TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
                         std::span<const sensors::RangeScan> scans, std::span<const sensors::SonarSweep> sweeps,

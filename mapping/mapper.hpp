@@ -80,6 +80,9 @@ struct TrajectoryMappingParams {
   evidence::BinaryMass belief{.yes = 1.0, .no = 0.0, .unknown = 0.0};
 };
 
+/// Whether a trajectory has a pose within `max_gap_s` of a time, on the side or sides that it is interpolated from.
+[[nodiscard]] bool covers(const sensors::MotionPath& trajectory, sensors::Timestamp time, double max_gap_s);
+
 struct TrajectoryMap {
   grids::EvidentialGrid grid;
   MappingCounts counts;
