@@ -17,7 +17,7 @@ namespace {
 // An element as the set of its Venn regions. Intersection is AND, union is OR, DSm cardinality the number of bits.
 constexpr unsigned kOverlap = 1, kOnlyEmpty = 2, kOnlyOccupied = 4;
 
-struct Focal {
+struct RegionMass {
   unsigned regions;
   double mass;
 };
@@ -36,7 +36,7 @@ unsigned regions_of(GridElement element, GridModel model) {
   return existing_regions(model);
 }
 
-std::array<Focal, 4> focals(const GridMass& mass, GridModel model) {
+std::array<RegionMass, 4> focals(const GridMass& mass, GridModel model) {
   return {{{regions_of(GridElement::kEmpty, model), mass.empty},
            {regions_of(GridElement::kOccupied, model), mass.occupied},
            {regions_of(GridElement::kConflict, model), mass.conflict},
@@ -87,7 +87,7 @@ std::optional<GridMass> without_conflict(const GridMass& mass) {
 double belief(const GridMass& mass, GridElement element, GridModel model) {
   const unsigned wanted = regions_of(element, model);
   double sum = 0.0;
-  for (const Focal& focal : focals(mass, model)) {
+  for (const RegionMass& focal : focals(mass, model)) {
     if (focal.regions != 0 && (focal.regions & ~wanted) == 0) sum += focal.mass;
   }
   return sum;
@@ -96,7 +96,7 @@ double belief(const GridMass& mass, GridElement element, GridModel model) {
 double plausibility(const GridMass& mass, GridElement element, GridModel model) {
   const unsigned wanted = regions_of(element, model);
   double sum = 0.0;
-  for (const Focal& focal : focals(mass, model)) {
+  for (const RegionMass& focal : focals(mass, model)) {
     if ((focal.regions & wanted) != 0) sum += focal.mass;
   }
   return sum;
@@ -105,7 +105,7 @@ double plausibility(const GridMass& mass, GridElement element, GridModel model) 
 double commonality(const GridMass& mass, GridElement element, GridModel model) {
   const unsigned wanted = regions_of(element, model);
   double sum = 0.0;
-  for (const Focal& focal : focals(mass, model)) {
+  for (const RegionMass& focal : focals(mass, model)) {
     if ((wanted & ~focal.regions) == 0) sum += focal.mass;
   }
   return sum;
@@ -114,7 +114,7 @@ double commonality(const GridMass& mass, GridElement element, GridModel model) {
 double pignistic(const GridMass& mass, GridElement element, GridModel model) {
   const unsigned wanted = regions_of(element, model);
   double sum = 0.0;
-  for (const Focal& focal : focals(divided(mass, model), model)) {
+  for (const RegionMass& focal : focals(divided(mass, model), model)) {
     if (focal.regions == 0) continue;
     sum += focal.mass * std::popcount(focal.regions & wanted) / std::popcount(focal.regions);
   }
@@ -124,16 +124,16 @@ double pignistic(const GridMass& mass, GridElement element, GridModel model) {
 double dsmp(const GridMass& mass, GridElement element, GridModel model, double epsilon) {
   if (!(epsilon >= 0.0)) throw std::invalid_argument("the epsilon of DSmP must be >= 0");
   const unsigned wanted = regions_of(element, model);
-  const std::array<Focal, 4> all = focals(divided(mass, model), model);
+  const std::array<RegionMass, 4> all = focals(divided(mass, model), model);
   const auto weight = [&](unsigned regions) {  // of the single regions inside, plus epsilon each
     double sum = epsilon * std::popcount(regions);
-    for (const Focal& focal : all) {
+    for (const RegionMass& focal : all) {
       if (std::popcount(focal.regions) == 1 && (focal.regions & ~regions) == 0) sum += focal.mass;
     }
     return sum;
   };
   double sum = 0.0;
-  for (const Focal& focal : all) {
+  for (const RegionMass& focal : all) {
     if (focal.regions == 0) continue;
     const double whole = weight(focal.regions);
     const unsigned common = focal.regions & wanted;
