@@ -11,7 +11,7 @@
 namespace credo::evidence {
 
 MassFunction average(const Sources& sources, std::span<const double> weights) {
-  const Frame& frame = sources.common_frame();
+  const Frame frame = sources.common_frame();
   double total = 0.0;
   for (const double weight : weights) {
     if (!(weight >= 0.0)) throw std::invalid_argument("the weights of an average must be >= 0");

@@ -46,7 +46,7 @@ ProductSum times(const ProductSum& products, const MassFunction& source, bool re
 }
 
 Fused move_conflict(const Sources& sources, bool hybrid) {
-  const Frame& frame = sources.common_frame();
+  const Frame frame = sources.common_frame();
   ProductSum products{{{frame.existing(frame.all()), {}, {}}, 1.0}};
   for (const MassFunction& source : sources) products = times(products, source, hybrid);
   FocalSum sum;
@@ -69,7 +69,7 @@ Fused move_conflict(const Sources& sources, bool hybrid) {
 }  // namespace
 
 Fused conflict_to_ignorance(const Sources& sources) {
-  const Frame& frame = sources.common_frame();
+  const Frame frame = sources.common_frame();
   const MassFunction open = conjunctive(sources);
   FocalSum sum;
   for (const Focal& focal : open.focals()) sum.add(focal.set.empty() ? frame.all() : focal.set, focal.mass);

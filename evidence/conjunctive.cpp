@@ -52,7 +52,7 @@ Running conjoin(const Sources& sources) {
 
 // Whether the pairs of focal elements are more than the additions of the transforms.
 bool dense_is_faster(const Sources& sources) {
-  const Frame& frame = sources.common_frame();
+  const Frame frame = sources.common_frame();
   if (!frame.is_power_set() || frame.size() > kMaxDenseElements) return false;
   constexpr double kPairPerAddition = 16.0;  // one pair costs as much
   const double subsets = std::ldexp(1.0, static_cast<int>(frame.size()));
@@ -66,8 +66,8 @@ bool dense_is_faster(const Sources& sources) {
   return kPairPerAddition * pairs > additions;
 }
 
-// q(A) = Π q_i(A), then back to masses.
-std::vector<double> conjoin_dense(const Sources& sources) {
+// q(A) = Π q_i(A). Nothing where rounding leaves no mass function: then it is found pair by pair.
+std::optional<MassFunction> conjoin_dense(const Sources& sources) {
   std::vector<double> product;
   for (const MassFunction& source : sources) {
     std::vector<double> commonality = to_dense(source);
@@ -78,38 +78,32 @@ std::vector<double> conjoin_dense(const Sources& sources) {
       std::ranges::transform(product, commonality, product.begin(), std::multiplies<>());
     }
   }
-  commonality_to_mass(product);
-  return product;
+  return from_commonality(sources.common_frame(), std::move(product));
 }
 
 }  // namespace
 
 MassFunction conjunctive(const Sources& sources) {
-  const Frame& frame = sources.common_frame();
-  if (dense_is_faster(sources)) return from_dense(frame, conjoin_dense(sources));
+  if (dense_is_faster(sources)) {
+    if (const std::optional<MassFunction> together = conjoin_dense(sources)) return *together;
+  }
   const Running running = conjoin(sources);
   FocalSum all;
   for (const Focal& term : running.kept.terms()) all.add(term.set, term.mass * running.share);
   all.add(Proposition(), running.conflict);
-  return all.mass_function(frame);
+  return all.mass_function(sources.common_frame());
 }
 
 std::optional<Fused> dempster(const Sources& sources) {
-  const Frame& frame = sources.common_frame();
   if (dense_is_faster(sources)) {
     // Rounding is relative to 1: where little is left beside the conflict, it is found pair by pair.
     constexpr double kMostConflict = 0.999;
-    std::vector<double> masses = conjoin_dense(sources);
-    const double conflict = masses[0];
-    if (conflict < kMostConflict) {
-      masses[0] = 0.0;
-      for (double& mass : masses) mass /= 1.0 - conflict;
-      return Fused{from_dense(frame, masses), std::max(0.0, conflict)};
-    }
+    const std::optional<MassFunction> together = conjoin_dense(sources);
+    if (together && together->conflict() < kMostConflict) return normalised(*together);
   }
   const Running running = conjoin(sources);
   if (running.kept.terms().empty()) return std::nullopt;
-  return Fused{running.kept.mass_function(frame), running.conflict};
+  return Fused{running.kept.mass_function(sources.common_frame()), running.conflict};
 }
 
 std::optional<Fused> condition(const MassFunction& mass, const Proposition& event) {
@@ -117,17 +111,13 @@ std::optional<Fused> condition(const MassFunction& mass, const Proposition& even
 }
 
 std::optional<MassFunction> decombine(const MassFunction& whole, const MassFunction& part) {
-  const Frame& frame = Sources{whole, part}.common_frame();
+  const Frame frame = Sources{whole, part}.common_frame();
   if (part.is_dogmatic()) throw std::invalid_argument("a dogmatic mass function, m(Θ) = 0, cannot be taken out");
   std::vector<double> quotient = to_dense(whole), divisor = to_dense(part);
   mass_to_commonality(quotient);
   mass_to_commonality(divisor);
   std::ranges::transform(quotient, divisor, quotient.begin(), std::divides<>());
-  commonality_to_mass(quotient);
-  // Rounding grows as what is divided by gets smaller; the smallest commonality is m(Θ).
-  const double rounding = kTransformRounding / divisor.back();
-  if (std::ranges::any_of(quotient, [&](double mass) { return !(mass >= -rounding); })) return std::nullopt;
-  return from_dense(frame, quotient, rounding);
+  return from_commonality(frame, std::move(quotient));
 }
 
 }  // namespace credo::evidence

@@ -31,8 +31,9 @@ MassFunction recompose(const CanonicalDecomposition& decomposition) {
   const double all = std::accumulate(values.begin(), values.end(), 0.0);
   mass_to_commonality(values);
   for (double& value : values) value = std::exp(all - value);
-  commonality_to_mass(values);
-  return from_dense(decomposition.frame, values, 1e-12);
+  std::optional<MassFunction> mass = from_commonality(decomposition.frame, std::move(values));
+  if (!mass) throw std::invalid_argument("these weights are those of no mass function: a mass would be negative");
+  return *std::move(mass);
 }
 
 MassFunction cautious(const Sources& sources) {

@@ -6,7 +6,7 @@
 namespace credo::evidence {
 
 MassFunction disjunctive(const Sources& sources) {
-  const Frame& frame = sources.common_frame();
+  const Frame frame = sources.common_frame();
   FocalSum united;
   united.add(Proposition(), 1.0);
   for (const MassFunction& source : sources) {

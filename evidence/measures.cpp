@@ -92,7 +92,7 @@ double jirousek_shenoy_entropy(const MassFunction& mass) {
 }
 
 double conflict_between(const MassFunction& a, const MassFunction& b) {
-  const Frame& frame = Sources{a, b}.common_frame();
+  const Frame frame = Sources{a, b}.common_frame();
   double conflict = 0.0;
   for (const Focal& x : a.focals()) {
     for (const Focal& y : b.focals()) {
@@ -103,7 +103,7 @@ double conflict_between(const MassFunction& a, const MassFunction& b) {
 }
 
 double jousselme_distance(const MassFunction& a, const MassFunction& b) {
-  const Frame& frame = Sources{a, b}.common_frame();
+  const Frame frame = Sources{a, b}.common_frame();
   FocalSum difference;
   for (const Focal& focal : a.focals()) difference.add(frame.existing(focal.set), focal.mass);
   for (const Focal& focal : b.focals()) difference.add(frame.existing(focal.set), -focal.mass);

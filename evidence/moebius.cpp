@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -32,6 +33,15 @@ void check_dense(const Frame& frame) {
   }
 }
 
+void check_size(const Frame& frame, std::size_t size) {
+  check_dense(frame);
+  const std::size_t expected = std::size_t{1} << frame.size();
+  if (size != expected) {
+    throw std::invalid_argument("a dense function on " + std::to_string(frame.size()) + " elements has " +
+                                std::to_string(expected) + " values, not " + std::to_string(size));
+  }
+}
+
 }  // namespace
 
 void mass_to_commonality(std::span<double> values) {
@@ -54,19 +64,27 @@ std::vector<double> to_dense(const MassFunction& mass) {
   return values;
 }
 
-MassFunction from_dense(const Frame& frame, std::span<const double> values, double negligible) {
-  check_dense(frame);
-  if (values.size() != std::size_t{1} << frame.size()) {
-    throw std::invalid_argument("a dense function on " + std::to_string(frame.size()) + " elements has " +
-                                std::to_string(std::size_t{1} << frame.size()) + " values, not " +
-                                std::to_string(values.size()));
-  }
+MassFunction from_dense(const Frame& frame, std::span<const double> values) {
+  check_size(frame, values.size());
   std::vector<Focal> focals;
   for (std::size_t bits = 0; bits < values.size(); ++bits) {
-    if (values[bits] <= negligible && values[bits] >= -negligible) continue;
-    focals.push_back({Proposition::from_bits(bits), values[bits]});
+    if (values[bits] != 0.0) focals.push_back({Proposition::from_bits(bits), values[bits]});
   }
   return MassFunction(frame, std::span<const Focal>(focals));
+}
+
+std::optional<MassFunction> from_commonality(const Frame& frame, std::vector<double> commonalities) {
+  check_size(frame, commonalities.size());
+  if (!(std::abs(commonalities[0] - 1.0) <= kMassTolerance)) return std::nullopt;
+  std::vector<double> masses = commonalities;
+  commonality_to_mass(masses);
+  FocalSum focals;
+  for (std::size_t bits = 0; bits < masses.size(); ++bits) {
+    const double rounding = kTransformRounding * commonalities[bits];
+    if (!(masses[bits] >= -rounding)) return std::nullopt;
+    if (masses[bits] > rounding || bits + 1 == masses.size()) focals.add(Proposition::from_bits(bits), masses[bits]);
+  }
+  return focals.mass_function(frame);
 }
 
 }  // namespace credo::evidence

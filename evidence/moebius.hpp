@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,19 +21,25 @@ void commonality_to_mass(std::span<double> values);    ///< its inverse
 void mass_to_implicability(std::span<double> values);  ///< b(A) = sum of m(B), B ⊆ A, ∅ among them
 void implicability_to_mass(std::span<double> values);  ///< its inverse
 
-/// What a transform there and back may leave of a mass that is 0.
-inline constexpr double kTransformRounding = 1e-14;
-
 /// Elements of a power set up to which functions are kept dense: 2^20 numbers, 8 MB.
 inline constexpr std::size_t kMaxDenseElements = 20;
 
 /// The masses of all 2^n subsets.
 /// \throws std::invalid_argument unless the frame is a power set of up to kMaxDenseElements elements
 [[nodiscard]] std::vector<double> to_dense(const MassFunction& mass);
-/// Masses below `negligible`, as transforms leave by rounding, are set to 0, then the sum to 1.
-/// \param values  size 2^n. \throws std::invalid_argument for another size or frame, a mass below -negligible, nan, or
-///        a sum that differs from 1 by more than kMassTolerance
-[[nodiscard]] MassFunction from_dense(const Frame& frame, std::span<const double> values,
-                                      double negligible = kTransformRounding);
+/// \param values  the masses of all 2^n subsets. \throws std::invalid_argument for another size or frame, and as the
+///        constructor of MassFunction
+[[nodiscard]] MassFunction from_dense(const Frame& frame, std::span<const double> values);
+
+/// Masses are differences of commonalities, rounded in proportion to q(A), the largest of them: below this share of it
+/// a mass counts as 0. What Θ and other large sets have stays, however little it is.
+inline constexpr double kTransformRounding = 1e-12;
+
+/// The mass function with these commonalities.
+/// \param commonalities  of all 2^n subsets; q(∅) = 1
+/// \returns nothing where they are those of no mass function: q(∅) is not 1 (tolerance kMassTolerance), or a mass would
+///          be negative
+/// \throws std::invalid_argument for another size or frame
+[[nodiscard]] std::optional<MassFunction> from_commonality(const Frame& frame, std::vector<double> commonalities);
 
 }  // namespace credo::evidence

@@ -36,7 +36,7 @@ struct Involvement {
 };
 
 std::set<Involvement> involvements(const Sources& sources) {
-  const Frame& frame = sources.common_frame();
+  const Frame frame = sources.common_frame();
   std::set<Involvement> products{{frame.existing(frame.all()), {}, {}}};
   for (const MassFunction& source : sources) {
     std::set<Involvement> next;
@@ -97,7 +97,7 @@ class Products {
     }
   }
 
-  const Frame& frame_;
+  const Frame frame_;
   std::vector<std::vector<Member>> sources_;
   std::vector<Member> members_;
 };
@@ -112,7 +112,7 @@ Proposition composing_or_all(const Frame& frame, std::span<const Products::Membe
 // PCR5 and PCR6: `accumulate` makes the weight of a set from the masses that the sources of a product give to it.
 template <typename Accumulate>
 Fused redistribute_each_product(const Sources& sources, Accumulate accumulate) {
-  const Frame& frame = sources.common_frame();
+  const Frame frame = sources.common_frame();
   FocalSum sum;
   double conflict = 0.0;
   std::vector<Focal> weights;  // of the sets of one product
@@ -144,7 +144,7 @@ Fused redistribute_each_product(const Sources& sources, Accumulate accumulate) {
 }  // namespace
 
 Fused pcr2(const Sources& sources) {
-  const Frame& frame = sources.common_frame();
+  const Frame frame = sources.common_frame();
   std::set<Proposition> involved;
   Proposition composing;
   for (const Involvement& product : involvements(sources)) {

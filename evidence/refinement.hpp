@@ -34,7 +34,7 @@ class Refining {
 /// Outer reduction, Shafer's coarsening: what `fine` knew and `coarse` cannot say becomes ignorance; plausibilities
 /// stay. After refine it gives the mass function back.
 [[nodiscard]] MassFunction coarsen(const MassFunction& mass, const Refining& refining);
-/// Inner reduction: keeps beliefs; what fits into no element goes to ∅.
+/// Inner reduction: a focal element becomes all that it contains, ∅ where that is nothing. Commonalities stay.
 [[nodiscard]] MassFunction coarsen_inner(const MassFunction& mass, const Refining& refining);
 
 /// The frame of all combinations of the elements of some frames, its factors: "wet × cold". The last factor runs

@@ -12,7 +12,8 @@
 
 namespace credo::evidence {
 
-/// What holds for a rule whatever the mass functions; docs/evidence/laws.md is made by the tests that prove it.
+/// What holds for a rule whatever the mass functions, as long as nothing is on ∅ (the bold rule: as long as something
+/// is); docs/evidence/laws.md is made by the tests that prove it.
 struct Laws {
   bool associative = false;  ///< combining some sources first changes nothing: the rule may be folded
   bool commutative = true;
@@ -57,12 +58,12 @@ struct ConflictToIgnorance {  ///< Yager
 };
 struct DuboisPrade {
   static constexpr std::string_view kName = "dubois_prade";
-  static constexpr Laws kLaws{.vacuous_neutral = true};
+  static constexpr Laws kLaws{};
   static std::optional<Fused> combine(const Sources& sources);
 };
 struct Dsmh {
   static constexpr std::string_view kName = "dsmh";
-  static constexpr Laws kLaws{.vacuous_neutral = true};
+  static constexpr Laws kLaws{};
   static std::optional<Fused> combine(const Sources& sources);
 };
 struct Pcr2 {

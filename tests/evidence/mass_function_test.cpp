@@ -160,11 +160,17 @@ TEST(Moebius, DenseFormsAreCheckedAsMassFunctionsAre) {
   const MassFunction mass(kAbc, {{"A", 0.2}, {"B ∪ C", 0.8}});
   std::vector<double> dense = to_dense(mass);
   EXPECT_EQ(from_dense(kAbc, dense), mass);
-  dense[0] = -1e-15;  // rounding
-  EXPECT_EQ(from_dense(kAbc, dense), mass);
   dense[0] = -1e-3;
   EXPECT_THROW(static_cast<void>(from_dense(kAbc, dense)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(from_dense(kAbc, std::span(dense).first(4))), std::invalid_argument);
+  std::vector<double> q = to_dense(mass);
+  mass_to_commonality(q);
+  EXPECT_EQ(from_commonality(kAbc, q)->mass("A"), 0.2);
+  q[1] = 1.5;  // A more common than ∅
+  EXPECT_EQ(from_commonality(kAbc, q), std::nullopt);
+  q[1] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(from_commonality(kAbc, q), std::nullopt);
+  EXPECT_THROW(static_cast<void>(from_commonality(kAbc, {1.0, 1.0})), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(to_dense(MassFunction::vacuous(Frame::free_dsm({"A", "B"})))), std::invalid_argument);
 }
 
