@@ -50,22 +50,6 @@ Running conjoin(const Sources& sources) {
   return running;
 }
 
-// Whether the pairs of focal elements are more than the additions of the transforms.
-bool dense_is_faster(const Sources& sources) {
-  const Frame frame = sources.common_frame();
-  if (!frame.is_power_set() || frame.size() > kMaxDenseElements) return false;
-  constexpr double kPairPerAddition = 16.0;  // one pair costs as much
-  const double subsets = std::ldexp(1.0, static_cast<int>(frame.size()));
-  double pairs = 0.0, focals = 1.0;
-  for (const MassFunction& source : sources) {
-    const auto count = static_cast<double>(source.focals().size());
-    pairs += focals * count;
-    focals = std::min(subsets, focals * count);
-  }
-  const double additions = (static_cast<double>(sources.size()) + 1.0) * static_cast<double>(frame.size()) * subsets;
-  return kPairPerAddition * pairs > additions;
-}
-
 // q(A) = Π q_i(A). Nothing where rounding leaves no mass function: then it is found pair by pair.
 std::optional<MassFunction> conjoin_dense(const Sources& sources) {
   std::vector<double> product;

@@ -128,6 +128,10 @@ MassFunction MassFunction::with_rest_unknown(Frame frame,
 
 double MassFunction::mass(const Proposition& set) const {
   const Proposition wanted = frame_.existing(set);
+  if (frame_.is_power_set()) {
+    const auto found = std::ranges::lower_bound(focals_, wanted, {}, &Focal::set);
+    return found != focals_.end() && found->set == wanted ? found->mass : 0.0;
+  }
   double sum = 0.0;
   for (const Focal& focal : focals_) {
     if (frame_.existing(focal.set) == wanted) sum += focal.mass;

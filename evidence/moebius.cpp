@@ -3,6 +3,7 @@
 
 #include "evidence/moebius.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -85,6 +86,21 @@ std::optional<MassFunction> from_commonality(const Frame& frame, std::vector<dou
     if (masses[bits] > rounding || bits + 1 == masses.size()) focals.add(Proposition::from_bits(bits), masses[bits]);
   }
   return focals.mass_function(frame);
+}
+
+bool dense_is_faster(const Sources& sources) {
+  const Frame frame = sources.common_frame();
+  if (!frame.is_power_set() || frame.size() > kMaxDenseElements) return false;
+  constexpr double kPairPerAddition = 16.0;  // one pair costs as much
+  const double subsets = std::ldexp(1.0, static_cast<int>(frame.size()));
+  double pairs = 0.0, focals = 1.0;
+  for (const MassFunction& source : sources) {
+    const auto count = static_cast<double>(source.focals().size());
+    pairs += focals * count;
+    focals = std::min(subsets, focals * count);
+  }
+  const double additions = (static_cast<double>(sources.size()) + 1.0) * static_cast<double>(frame.size()) * subsets;
+  return kPairPerAddition * pairs > additions;
 }
 
 }  // namespace credo::evidence

@@ -42,4 +42,7 @@ inline constexpr double kTransformRounding = 1e-12;
 /// \throws std::invalid_argument for another size or frame
 [[nodiscard]] std::optional<MassFunction> from_commonality(const Frame& frame, std::vector<double> commonalities);
 
+/// Whether combining the sources by transforms takes less than going through the pairs of their focal elements.
+[[nodiscard]] bool dense_is_faster(const Sources& sources);
+
 }  // namespace credo::evidence

@@ -148,6 +148,11 @@ TEST(Rules, DenseSourcesGiveWhatTheirPairsGive) {
   EXPECT_LE(distance(conjunctive({a, b}), expected), 1e-14);
   EXPECT_LE(distance(dempster({a, b})->mass, normalised(expected)->mass), 1e-14);
   EXPECT_NEAR(dempster({a, b})->conflict, expected.conflict(), 1e-14);
+  FocalSum unions;
+  for (const Focal& x : a.focals()) {
+    for (const Focal& y : b.focals()) unions.add(x.set | y.set, x.mass * y.mass);
+  }
+  EXPECT_LE(distance(disjunctive({a, b}), unions.mass_function(frame)), 1e-14);
 }
 
 TEST(Rules, DenseSourcesNearTotalConflictAreCombinedByPairs) {
