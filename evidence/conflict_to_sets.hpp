@@ -8,8 +8,8 @@
 namespace credo::evidence {
 
 /// Rules that move the conflict of the conjunctive rule to larger sets. None is associative: all sources are combined
-/// at once, and folding them gives another result. They are commutative. Every one has a result at total conflict, and
-/// `conflict` says how much was moved.
+/// at once, and folding them gives another result. They are commutative, not idempotent. Every one has a result at
+/// total conflict, and `conflict` says how much was moved.
 
 /// Conflict to ignorance (Yager 1987; Clerentin et al., sec. 3.1): m(∅) of all sources together goes to Θ, once. The
 /// vacuous mass function is neutral. Total conflict gives it.

@@ -12,14 +12,14 @@ namespace credo::evidence {
 /// Conjunctive rule: m(A) = Σ Π m_i(X_i) over all X_1 ∩ … ∩ X_s = A; the conflict stays as m(∅). All sources are
 /// reliable and independent. On a free model it is the DSm classic rule (Li X. 2006, eq. (3)), where intersections
 /// exist and nothing is in conflict; on a power set the unnormalised rule of the TBM (Smets 1990).
-/// Associative, commutative; the vacuous mass function is neutral. Total conflict is m(∅) = 1.
+/// Associative, commutative, not idempotent; the vacuous mass function is neutral. Total conflict is m(∅) = 1.
 /// Dense sources on power sets go through commonalities, in O(n 2^n); rounding then is relative to 1.
 /// \throws std::invalid_argument unless all sources have one frame; this holds for all rules
 [[nodiscard]] MassFunction conjunctive(const Sources& sources);
 
 /// Dempster's rule (Shafer 1976; Li X. 2007, eq. (12)): the conjunctive rule without m(∅), divided by the sum of the
 /// rest, not by 1 - m(∅), which has no digits left near total conflict. Exact for any number of opposed sources.
-/// Associative, commutative; the vacuous mass function is neutral.
+/// Associative, commutative, not idempotent; the vacuous mass function is neutral.
 /// \returns nothing at total conflict
 [[nodiscard]] std::optional<Fused> dempster(const Sources& sources);
 

@@ -9,7 +9,8 @@ namespace credo::evidence {
 
 /// Rules that give the conflict back to those that caused it, in proportion to what they claimed. None is associative:
 /// all sources are combined at once; a fold depends on the order of its sources, and remembers two or three of them.
-/// All are commutative and have a result at total conflict. `conflict` says how much was redistributed.
+/// All are commutative, none is idempotent, all have a result at total conflict. `conflict` says how much was
+/// redistributed.
 ///
 /// With three sources and more the vacuous mass function is not neutral in PCR5 and PCR6, whose ignorant sources get a
 /// share too: leave vacuous sources out. In PCR2 it is neutral; in PCR5+ and PCR6+, which are here for two elements

@@ -175,6 +175,25 @@ TEST(Rules, DenseSourcesNearTotalConflictAreCombinedByPairs) {
   EXPECT_LE(distance(dempster({a, b})->mass, pairs.mass_function(frame, 1.0 / kept)), 1e-12);
 }
 
+// 8 elements that may overlap have more than 10^22 propositions, 200 that exclude each other 2^200.
+TEST(Rules, LargeFramesNeedNoEnumeration) {
+  const Frame free = Frame::free_dsm(element_names(8));
+  const MassFunction a(free, {{"A ∩ B ∪ C", 0.6}, {"Θ", 0.4}}), b(free, {{"A ∪ H", 0.5}, {"Θ", 0.5}});
+  const MassFunction both = conjunctive({a, b});
+  EXPECT_NEAR(both.mass("A ∩ B ∪ A ∩ C ∪ C ∩ H"), 0.3, 1e-15);
+  EXPECT_EQ(free.to_string(free.parse("(A ∩ B ∪ C) ∩ (A ∪ H)")), "A ∩ B ∪ A ∩ C ∪ C ∩ H");
+  EXPECT_NEAR(belief(both, free.parse("A ∪ C")), 0.6, 1e-15);
+
+  std::vector<std::string> names;
+  for (int i = 0; i < 200; ++i) names.push_back("place " + std::to_string(i));
+  const Frame large = Frame::shafer(names);
+  const MassFunction early = MassFunction::simple_support(large, Proposition::first(150), 0.8);
+  const MassFunction late = MassFunction::simple_support(large, large.all() - Proposition::first(140), 0.5);
+  const MassFunction here = dempster({early, late})->mass;
+  EXPECT_NEAR(belief(here, Proposition::first(150) - Proposition::first(140)), 0.4, 1e-15);
+  EXPECT_NEAR(pcr6({early, late, late}).mass.mass(large.all()), 0.05, 1e-15);
+}
+
 TEST(Rules, TooManyProductsAreRefused) {
   const Masses sources(20, MassFunction(kAbc, {{"A", 0.5}, {"B", 0.25}, {"Θ", 0.25}}));
   EXPECT_THAT([&] { static_cast<void>(pcr6(sources)); },
