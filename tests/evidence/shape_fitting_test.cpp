@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <stdexcept>
 #include <vector>
 
 #include "evidence/predictive_belief.hpp"
+#include "tests/evidence/labelled_samples.hpp"
 #include "tests/evidence/random_masses.hpp"
 
 namespace credo::evidence {
@@ -24,36 +24,6 @@ using ::testing::ThrowsMessage;
 using Samples = std::vector<LabelledSample>;
 
 const ShapeTitle kTitle{.name = "fitted", .quantity = "score", .unit = "1"};
-
-double rising_truth(double x) { return 1.0 / (1.0 + std::exp(-1.5 * x)); }
-double falling_truth(double x) { return rising_truth(-x); }
-double flat_truth(double) { return .3; }
-
-/// x uniform in [-3, 3], labels true with the probability of the truth.
-Samples drawn(double (*truth)(double), std::size_t count, unsigned seed) {
-  std::mt19937_64 generator(seed);
-  const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
-  Samples samples(count);
-  for (LabelledSample& sample : samples) {
-    sample.x = 6.0 * uniform() - 3.0;
-    sample.label = uniform() < truth(sample.x);
-  }
-  return samples;
-}
-
-/// Means over 20 seeds of shapes fitted to `count` samples and judged by 20 000 others.
-Calibration mean_calibration(double (*truth)(double), std::size_t count, double confidence) {
-  constexpr unsigned kSeeds = 20;
-  Calibration mean;
-  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
-    const FittedShape fitted = fit_shape(drawn(truth, count, seed), kTitle, {.confidence = confidence});
-    const Calibration one = calibration_of(fitted.shape, drawn(truth, 20'000, seed + 1000));
-    mean.coverage += one.coverage / kSeeds;
-    mean.calibration_error += one.calibration_error / kSeeds;
-    mean.mean_unknown += one.mean_unknown / kSeeds;
-  }
-  return mean;
-}
 
 TEST(ShapeFitting, HoldsItsConfidenceOnSamplesThatWereNotFitted) {
   for (const auto truth : {rising_truth, falling_truth}) {
