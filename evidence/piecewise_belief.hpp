@@ -39,7 +39,7 @@ class PiecewiseBelief {
  public:
   /// \param breakpoints  at least one; x ascending, each yes >= 0, no >= 0 and yes + no <= 1 (what exceeds 1 by 1e-9 or
   ///                     less is cut off)
-  /// \throws std::invalid_argument, naming the breakpoint or the part of the title, what was found and what is expected:
+  /// \throws std::invalid_argument, naming the breakpoint or part of the title, what was found and what is expected:
   ///         also for a name given twice, a number that is not finite and a range of x that exceeds all doubles
   PiecewiseBelief(ShapeTitle title, std::vector<Breakpoint> breakpoints);
 
