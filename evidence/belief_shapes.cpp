@@ -29,11 +29,14 @@ void check(const RampBelief& shape, const char* name) {
   const bool larger_is_better =
       shape.yes_full_until >= shape.yes_zero_from && shape.no_zero_until >= shape.no_full_from;
   if (!larger_is_worse && !larger_is_better) refuse(name, "YES must fall in the direction in which NO rises");
-  // yes + no is piecewise linear: largest at a breakpoint.
+  // yes + no is piecewise linear: largest at a breakpoint, or beside it where the other makes a step there.
   for (const double x : {shape.yes_full_until, shape.yes_zero_from, shape.no_zero_until, shape.no_full_from}) {
-    const double yes = shape.max_yes * falling(x, shape.yes_full_until, shape.yes_zero_from);
-    const double no = shape.max_no * rising(x, shape.no_zero_until, shape.no_full_from);
-    if (yes + no > 1.0 + 1e-9) refuse(name, "YES and NO together exceed 1; lower max_yes or max_no or move them apart");
+    for (const double near : {std::nextafter(x, -HUGE_VAL), x, std::nextafter(x, HUGE_VAL)}) {
+      const double yes = shape.max_yes * falling(near, shape.yes_full_until, shape.yes_zero_from);
+      const double no = shape.max_no * rising(near, shape.no_zero_until, shape.no_full_from);
+      if (yes + no <= 1.0 + kMassTolerance) continue;
+      refuse(name, "YES and NO together exceed 1; lower max_yes or max_no or move them apart");
+    }
   }
 }
 

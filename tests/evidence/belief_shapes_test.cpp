@@ -90,6 +90,14 @@ TEST(BeliefShapes, CheckNamesTheParameterThatIsWrong) {
   shape.no_zero_until = -20.0;
   shape.no_full_from = 0.0;
   EXPECT_THAT(message(shape), StartsWith("wall_angle: YES and NO together"));
+  // A step of NO at 1, where YES still has all of its mass: too much from there on, though not at 1 itself.
+  shape = {.max_yes = 0.3,
+           .yes_full_until = 2.0,
+           .yes_zero_from = 3.0,
+           .max_no = 0.8,
+           .no_zero_until = 1.0,
+           .no_full_from = 1.0};
+  EXPECT_THAT(message(shape), StartsWith("wall_angle: YES and NO together"));
 }
 
 }  // namespace
