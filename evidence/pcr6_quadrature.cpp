@@ -45,17 +45,17 @@ void eightfold(Lanes& decay) {
 
 // Sums of the products of factors m e^(-tm), by which of YES and NO they name; and of the same products times the sum
 // of the masses in them that were given to YES, to NO, to the frame.
-struct Products {
+struct NodeProducts {
   Lanes none{}, yes{}, no{}, both{};
   Lanes yes_of_yes{}, yes_of_both{};
   Lanes no_of_no{}, no_of_both{};
   Lanes unknown_of_none{}, unknown_of_yes{}, unknown_of_no{}, unknown_of_both{};
 
-  Products() { none.fill(1.0); }
+  NodeProducts() { none.fill(1.0); }
 };
 
 // \param stake  of the frame: the mass with which it counts in S
-void take_in(Products& p, const BinaryMass& source, double stake, const Decay& decay) {
+void take_in(NodeProducts& p, const BinaryMass& source, double stake, const Decay& decay) {
   for (std::size_t i = 0; i < kLanes; ++i) {
     const double a = source.yes + source.yes * decay.yes[i];
     const double b = source.no + source.no * decay.no[i];
@@ -137,7 +137,7 @@ class Quadrature {
   }
 
   void add() {
-    Products products;
+    NodeProducts products;
     for (std::size_t s = 0; s < sources_.size(); ++s) take_in(products, sources_[s], stake(sources_[s]), decays_[s]);
     for (std::size_t i = 0; i < kLanes; ++i) {
       sum_.yes += nodes_.weight[i] * products.yes_of_both[i];
