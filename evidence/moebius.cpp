@@ -90,7 +90,8 @@ std::optional<MassFunction> from_commonality(const Frame& frame, std::vector<dou
 
 bool dense_is_faster(const Sources& sources) {
   const Frame frame = sources.common_frame();
-  if (!frame.is_power_set() || frame.size() > kMaxDenseElements) return false;
+  constexpr std::size_t kMinElements = 6;  // below, pairs take next to nothing and are more accurate
+  if (!frame.is_power_set() || frame.size() < kMinElements || frame.size() > kMaxDenseElements) return false;
   constexpr double kPairPerAddition = 16.0;  // one pair costs as much
   const double subsets = std::ldexp(1.0, static_cast<int>(frame.size()));
   double pairs = 0.0, focals = 1.0;
