@@ -12,6 +12,7 @@
 #include <set>
 
 #include "evidence/averaging.hpp"
+#include "evidence/binary_rules.hpp"
 #include "evidence/conflict_to_sets.hpp"
 #include "evidence/conjunctive.hpp"
 #include "evidence/decomposition.hpp"
@@ -160,16 +161,22 @@ std::string proportional_table() {
 }
 
 std::string vacuous_table() {
-  std::vector<NamedMass> rows;
-  std::vector<MassFunction> sources{on_ab(0.6, 0.3), on_ab(0.2, 0.7)};
-  for (const int vacuous : {0, 1, 3}) {
-    while (sources.size() < 2u + vacuous) sources.push_back(MassFunction::vacuous(kAb));
-    const std::string also = vacuous == 0 ? "" : ", and " + std::to_string(vacuous) + " vacuous";
-    rows.push_back({"PCR2" + also, pcr2(sources).mass});
-    rows.push_back({"PCR5" + also, pcr5(sources).mass});
-    rows.push_back({"PCR6" + also, pcr6(sources).mass});
+  using Rule = FusedBinaryMass (*)(const BinarySources&);
+  const std::pair<const char*, Rule> rules[] = {
+      {"PCR2", pcr2}, {"PCR5", pcr5}, {"PCR6", pcr6}, {"PCR5+", pcr5_plus}, {"PCR6+", pcr6_plus}};
+  std::vector<Row> rows;
+  for (const auto& [name, rule] : rules) {
+    rows.push_back({name});
+    for (const std::size_t vacuous : {0, 1, 3}) {
+      std::vector<BinaryMass> sources(2 + vacuous, BinaryMass::vacuous());
+      sources[0] = BinaryMass::from(0.6, 0.3);
+      sources[1] = BinaryMass::from(0.2, 0.7);
+      const BinaryMass mass = rule(sources).mass;
+      rows.back().push_back(number(mass.yes));
+      rows.back().push_back(number(mass.unknown));
+    }
   }
-  return masses({"A", "B", "Θ"}, rows);
+  return markdown({"", "m(A)", "m(Θ)", "m(A), and one vacuous", "m(Θ)", "m(A), and three vacuous", "m(Θ)"}, rows);
 }
 
 std::string order_of_proportional_table() {
