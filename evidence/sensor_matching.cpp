@@ -29,7 +29,7 @@ BinaryMass whether_occupied(const GridMass& mass) {
   return {.yes = rest->occupied, .no = rest->empty, .unknown = rest->unknown};
 }
 
-GridMass cell(const BinaryMass& occupied, double conflict) {
+GridMass cell_of(const BinaryMass& occupied, double conflict) {
   const double rest = 1.0 - conflict;
   return {.empty = rest * occupied.no,
           .occupied = rest * occupied.yes,
@@ -98,12 +98,12 @@ BinaryMass most_unknown_with(double probability, Matching matching) {
 
 GridMass grid_mass_with(double probability, double unknown, double conflict, Matching matching) {
   check_conflict(conflict);
-  return cell(mass_with(probability, unknown / (1.0 - conflict), matching), conflict);
+  return cell_of(mass_with(probability, unknown / (1.0 - conflict), matching), conflict);
 }
 
 GridMass most_unknown_grid_mass_with(double probability, double conflict, Matching matching) {
   check_conflict(conflict);
-  return cell(most_unknown_with(probability, matching), conflict);
+  return cell_of(most_unknown_with(probability, matching), conflict);
 }
 
 }  // namespace credo::evidence
