@@ -72,6 +72,7 @@ class MassFunction {
 
  private:
   friend class FocalSum;
+  friend MassFunction from_dense(const Frame& frame, std::span<const double> values, double negligible);
   explicit MassFunction(Frame frame) : frame_(std::move(frame)) {}
 
   Frame frame_;

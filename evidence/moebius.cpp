@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -61,12 +62,21 @@ MassFunction from_dense(const Frame& frame, std::span<const double> values, doub
                                 std::to_string(std::size_t{1} << frame.size()) + " values, not " +
                                 std::to_string(values.size()));
   }
-  std::vector<Focal> focals;
+  // Valid ones are ordered and each once already.
+  MassFunction result(frame);
+  result.focals_.reserve(values.size());
+  double sum = 0.0;
+  bool valid = true;
   for (std::size_t bits = 0; bits < values.size(); ++bits) {
-    if (values[bits] <= negligible && values[bits] >= -negligible) continue;
-    focals.push_back({Proposition::from_bits(bits), values[bits]});
+    const double mass = values[bits];
+    if (mass <= negligible && mass >= -negligible) continue;
+    valid = valid && mass > 0.0;
+    sum += mass;
+    result.focals_.push_back({Proposition::from_bits(bits), mass});
   }
-  return MassFunction(frame, std::span<const Focal>(focals));
+  if (!valid || !(std::abs(sum - 1.0) <= kMassTolerance)) return MassFunction(frame, result.focals_);  // says why not
+  for (Focal& focal : result.focals_) focal.mass /= sum;
+  return result;
 }
 
 }  // namespace credo::evidence
