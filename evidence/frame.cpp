@@ -201,10 +201,10 @@ Proposition Frame::canonical(const Proposition& set) const {
 }
 
 Proposition Frame::admitted(const Proposition& set) const {
+  if (is_power_set() && set.subset_of(all())) return set;
   if (!set.subset_of(Proposition::first(region_count()))) {
     throw std::invalid_argument("a proposition has a region that the frame does not know: it is of another frame");
   }
-  if (is_power_set()) return set;
   Proposition exact;
   for (const Term& term : diagram_->terms) {
     if (term.regions.subset_of(set)) exact |= term.regions;

@@ -55,8 +55,9 @@ MassFunction::MassFunction(Frame frame, std::span<const Focal> focals) : frame_(
   if (std::abs(sum - 1.0) > kMassTolerance) {
     refuse("not a mass function: the masses sum to ", sum, ", not to 1 (tolerance ", kMassTolerance, ")");
   }
+  focals_.reserve(focals.size());
   for (const Focal& focal : focals) focals_.push_back({frame_.admitted(focal.set), focal.mass / sum});
-  std::ranges::stable_sort(focals_, {}, &Focal::set);
+  if (!std::ranges::is_sorted(focals_, {}, &Focal::set)) std::ranges::stable_sort(focals_, {}, &Focal::set);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < focals_.size(); ++i) {
     if (kept > 0 && focals_[kept - 1].set == focals_[i].set) {

@@ -72,6 +72,7 @@ class MassFunction {
 
  private:
   friend class FocalSum;
+  friend std::optional<MassFunction> from_commonality(const Frame& frame, std::vector<double> commonalities);
   explicit MassFunction(Frame frame) : frame_(std::move(frame)) {}
 
   Frame frame_;

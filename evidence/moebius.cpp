@@ -29,8 +29,9 @@ void for_each_element(std::span<double> values, Step step) {
 
 void check_dense(const Frame& frame) {
   if (!frame.is_power_set() || frame.size() > kMaxDenseElements) {
-    throw std::invalid_argument("dense functions need a frame of Shafer's model with at most " +
-                                std::to_string(kMaxDenseElements) + " elements");
+    throw std::invalid_argument("a function of all subsets needs a frame of Shafer's model with at most " +
+                                std::to_string(kMaxDenseElements) + " elements; this one has " +
+                                std::to_string(frame.size()) + (frame.is_power_set() ? "" : " that may overlap"));
   }
 }
 
@@ -79,13 +80,16 @@ std::optional<MassFunction> from_commonality(const Frame& frame, std::vector<dou
   if (!(std::abs(commonalities[0] - 1.0) <= kMassTolerance)) return std::nullopt;
   std::vector<double> masses = commonalities;
   commonality_to_mass(masses);
-  FocalSum focals;
+  MassFunction result(frame);
+  result.focals_.reserve(masses.size());
   for (std::size_t bits = 0; bits < masses.size(); ++bits) {
     const double rounding = kTransformRounding * commonalities[bits];
     if (!(masses[bits] >= -rounding)) return std::nullopt;
-    if (masses[bits] > rounding || bits + 1 == masses.size()) focals.add(Proposition::from_bits(bits), masses[bits]);
+    const bool is_all = bits + 1 == masses.size();
+    if (masses[bits] > (is_all ? 0.0 : rounding))
+      result.focals_.push_back({Proposition::from_bits(bits), masses[bits]});
   }
-  return focals.mass_function(frame);
+  return result;
 }
 
 bool dense_is_faster(const Sources& sources) {

@@ -84,21 +84,22 @@ void OpenWorldMatcher::combine(std::span<const BinaryMass> evidence) {
 
   // Clerentin et al., sec. 4.1: m(P_i) = m_i(P_i) prod_{j != i} (1 - m_j(P_j)), m(*) = prod m_j(not P_j), and in Theta
   // what of prod (1 - m_j(P_j)) is not *. One candidate after the other, so that nothing is subtracted.
+  // The running values are local: as members they would go through memory with every candidate.
   open_.match.resize(count);
-  double prefix = 1.0, claimed = 0.0;
-  open_.none = 1.0;
-  open_.unknown = 0.0;
-  open_.conflict = 0.0;
+  double prefix = 1.0, claimed = 0.0, none = 1.0, unknown = 0.0, conflict = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const BinaryMass& m = evidence[i];
     const double out = m.no + m.unknown;
     open_.match[i] = m.yes * prefix * suffix_[i + 1];
-    open_.conflict += claimed * m.yes;
+    conflict += claimed * m.yes;
     claimed = claimed * out + prefix * m.yes;
-    open_.unknown = open_.unknown * out + open_.none * m.unknown;
-    open_.none *= m.no;
+    unknown = unknown * out + none * m.unknown;
+    none *= m.no;
     prefix *= out;
   }
+  open_.none = none;
+  open_.unknown = unknown;
+  open_.conflict = conflict;
   kept_ = claimed + all_out_;
 }
 
