@@ -69,7 +69,7 @@ std::optional<MassFunction> conjoin_dense(const Sources& sources) {
 
 MassFunction conjunctive(const Sources& sources) {
   if (dense_is_faster(sources)) {
-    if (const std::optional<MassFunction> together = conjoin_dense(sources)) return *together;
+    if (std::optional<MassFunction> together = conjoin_dense(sources)) return *std::move(together);
   }
   const Running running = conjoin(sources);
   FocalSum all;

@@ -13,17 +13,30 @@
 namespace credo::evidence {
 namespace {
 
-// For each element in turn, the halves of every block that do not and that do contain it.
+// The halves of a block that do not and that do contain the element, whose number is log2(half).
+template <typename Step>
+void for_each_pair(double* block, std::size_t half, Step step) {
+  for (std::size_t i = 0; i < half; ++i) step(block[i], block[half + i]);
+}
+
+// For each element in turn, all pairs of subsets that differ in it. The first three elements are done in one pass:
+// loops of one, two and four steps would cost more than what they do.
 template <typename Step>
 void for_each_element(std::span<double> values, Step step) {
   assert(std::has_single_bit(values.size()));
+  constexpr std::size_t kBlock = 8;
   const std::size_t size = values.size();
-  for (std::size_t half = 1; half < size; half *= 2) {
-    for (std::size_t block = 0; block < size; block += 2 * half) {
-      double* without = values.data() + block;
-      double* with = without + half;
-      for (std::size_t i = 0; i < half; ++i) step(without[i], with[i]);
+  std::size_t half = 1;
+  if (size >= kBlock) {
+    for (double* block = values.data(); block != values.data() + size; block += kBlock) {
+      for (const std::size_t i : {0, 2, 4, 6}) for_each_pair(block + i, 1, step);
+      for (const std::size_t i : {0, 4}) for_each_pair(block + i, 2, step);
+      for_each_pair(block, 4, step);
     }
+    half = kBlock;
+  }
+  for (; half < size; half *= 2) {
+    for (std::size_t block = 0; block < size; block += 2 * half) for_each_pair(values.data() + block, half, step);
   }
 }
 
@@ -81,14 +94,17 @@ std::optional<MassFunction> from_commonality(const Frame& frame, std::vector<dou
   std::vector<double> masses = commonalities;
   commonality_to_mass(masses);
   MassFunction result(frame);
-  result.focals_.reserve(masses.size());
+  result.focals_.resize(masses.size());
+  std::size_t kept = 0;
   for (std::size_t bits = 0; bits < masses.size(); ++bits) {
     const double rounding = kTransformRounding * commonalities[bits];
     if (!(masses[bits] >= -rounding)) return std::nullopt;
-    const bool is_all = bits + 1 == masses.size();
-    if (masses[bits] > (is_all ? 0.0 : rounding))
-      result.focals_.push_back({Proposition::from_bits(bits), masses[bits]});
+    result.focals_[kept] = {Proposition::from_bits(bits), masses[bits]};
+    kept += masses[bits] > rounding ? 1 : 0;
   }
+  const bool all_is_small = kept == 0 || result.focals_[kept - 1].set != frame.all();
+  if (all_is_small && masses.back() > 0.0) result.focals_[kept++] = {frame.all(), masses.back()};
+  result.focals_.resize(kept);
   return result;
 }
 

@@ -37,9 +37,7 @@ class Proposition {
   }
   /// The regions 0 .. 63 from the bits of a number: on a power set of up to 64 elements, the subset of that index.
   [[nodiscard]] static constexpr Proposition from_bits(std::uint64_t bits) {
-    Proposition result;
-    result.words_[0] = bits;
-    return result;
+    return Proposition({bits, 0, 0, 0});
   }
 
   [[nodiscard]] constexpr std::uint64_t low_bits() const { return words_[0]; }  ///< inverse of from_bits
@@ -91,6 +89,8 @@ class Proposition {
 
  private:
   static constexpr std::size_t kWords = kMaxRegions / 64;
+  explicit constexpr Proposition(const std::array<std::uint64_t, kWords>& words) : words_(words) {}
+
   std::array<std::uint64_t, kWords> words_{};
 };
 
