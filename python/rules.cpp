@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "evidence/averaging.hpp"
-#include "evidence/binary_mass.hpp"
+#include "evidence/binary_rules.hpp"
 #include "evidence/conjunctive.hpp"
 #include "python/bindings.hpp"
 
@@ -15,29 +15,59 @@ namespace credo::python {
 namespace {
 
 using evidence::BinaryMass;
+using evidence::BinarySources;
 using evidence::Fused;
+using evidence::FusedBinaryMass;
 using evidence::Laws;
 using evidence::MassFunction;
 using evidence::NamedRule;
+namespace rule = evidence::rule;
 
 std::vector<MassFunction> mass_functions(const py::list& sources) {
   return sources_of<MassFunction>(sources, "MassFunction");
 }
 
-// The rule in the closed form of {YES, NO}. \throws py::type_error for a rule that is not there
+py::object without_conflict(const BinaryMass& mass) { return py::cast(FusedBinaryMass{mass, 0.0}); }
+
+// A rule in the closed form of {YES, NO}.
+struct ClosedForm {
+  std::string_view rule;
+  py::object (*combine)(const BinarySources& sources);
+};
+using Binary = const BinarySources&;
+constexpr std::array<ClosedForm, 12> kClosedForms{{
+    {rule::Conjunctive::kName, [](Binary s) { return py::cast(evidence::conjunctive(s.span())); }},
+    {rule::Dempster::kName, [](Binary s) { return py::cast(evidence::dempster(s.span())); }},
+    {rule::Disjunctive::kName, [](Binary s) { return without_conflict(evidence::disjunctive(s)); }},
+    {rule::ConflictToIgnorance::kName, [](Binary s) { return py::cast(evidence::conflict_to_ignorance(s.span())); }},
+    {rule::DuboisPrade::kName, [](Binary s) { return py::cast(evidence::conflict_to_ignorance(s.span())); }},
+    {rule::Dsmh::kName, [](Binary s) { return py::cast(evidence::conflict_to_ignorance(s.span())); }},
+    {rule::Pcr2::kName, [](Binary s) { return py::cast(evidence::pcr2(s)); }},
+    {rule::Pcr5::kName, [](Binary s) { return py::cast(evidence::pcr5(s)); }},
+    {rule::Pcr6::kName, [](Binary s) { return py::cast(evidence::pcr6(s)); }},
+    {rule::Cautious::kName, [](Binary s) { return py::cast(evidence::cautious(s)); }},
+    {rule::Average::kName, [](Binary s) { return without_conflict(evidence::average(s)); }},
+    {rule::Murphy::kName, [](Binary s) { return py::cast(evidence::murphy(s)); }},
+}};
+
+std::vector<BinaryMass> binary_masses(const py::list& sources) {
+  return sources_of<BinaryMass>(sources, "BinaryMass, as the first is");
+}
+
+bool are_binary(const py::list& sources) { return !sources.empty() && py::isinstance<BinaryMass>(sources[0]); }
+
 py::object in_closed_form(const NamedRule& rule, const py::list& sources) {
-  const std::vector<BinaryMass> masses = sources_of<BinaryMass>(sources, "BinaryMass, as the first is");
-  const std::span<const BinaryMass> all(masses);
-  if (rule.name == evidence::rule::Conjunctive::kName) return py::cast(evidence::conjunctive(all));
-  if (rule.name == evidence::rule::Dempster::kName) return py::cast(evidence::dempster(all));
-  if (rule.name == evidence::rule::ConflictToIgnorance::kName) return py::cast(evidence::conflict_to_ignorance(all));
-  throw py::type_error("binary masses are combined by conjunctive, dempster and yager; for " + std::string(rule.name) +
-                       " use to_mass_function");
+  const std::vector<BinaryMass> masses = binary_masses(sources);
+  const auto* const found = std::ranges::find(kClosedForms, rule.name, &ClosedForm::rule);
+  if (found == kClosedForms.end()) {
+    throw py::type_error(std::string(rule.name) + " is not defined for binary masses: they have no mass on ∅");
+  }
+  return found->combine(masses);
 }
 
 py::object combined(const NamedRule& rule, const py::args& sources) {
   const py::list all = listed(sources);
-  if (!all.empty() && py::isinstance<BinaryMass>(all[0])) return in_closed_form(rule, all);
+  if (are_binary(all)) return in_closed_form(rule, all);
   return py::cast(rule.combine(mass_functions(all)));
 }
 
@@ -47,7 +77,9 @@ py::object averaged(const py::args& sources, const py::object& weights) {
   const Array values(weights);
   const std::span<const double> given = numbers(values, "weights");
   if (given.empty()) throw std::invalid_argument("weights must be one for each source, or None; got none");
-  MassFunction mass = evidence::average(mass_functions(listed(sources)), given);
+  const py::list all = listed(sources);
+  if (are_binary(all)) return without_conflict(evidence::average(binary_masses(all), given));
+  MassFunction mass = evidence::average(mass_functions(all), given);
   const double conflict = mass.conflict();
   return py::cast(Fused{std::move(mass), conflict});
 }
@@ -105,12 +137,13 @@ Conjunctive rule: products go to intersections, the conflict stays as m(∅). On
 function is neutral.
 
 As all rules: sources are MassFunctions of one frame, given one by one or as one iterable; the result is a Fused.
-ValueError for no source, or different frames. BinaryMasses give an OpenBinaryMass.)"},
+ValueError for no source, or different frames. BinaryMasses are combined in closed form, to a FusedBinaryMass; here, and
+in cautious, whose conflict stays, to an OpenBinaryMass.)"},
     {"dempster", R"(dempster(*sources)
 --
 
 Dempster's rule (Shafer 1976): the conjunctive rule without m(∅), divided by the sum of the rest. Associative; the
-vacuous mass function is neutral. None at total conflict. BinaryMasses give a FusedBinaryMass.)"},
+vacuous mass function is neutral. None at total conflict.)"},
     {"disjunctive", R"(disjunctive(*sources)
 --
 
@@ -120,7 +153,7 @@ No conflict arises. Associative; the vacuous mass function absorbs all others.)"
 --
 
 Conflict to ignorance (Yager 1987): m(∅) of all sources together goes to Θ, once. Not associative; the vacuous mass
-function is neutral. Total conflict gives the vacuous one. BinaryMasses give a FusedBinaryMass.)"},
+function is neutral. Total conflict gives the vacuous one.)"},
     {"dubois_prade", R"(dubois_prade(*sources)
 --
 
@@ -160,7 +193,7 @@ ValueError for a dogmatic source (m(Θ) = 0): discount it first.)"},
 
 Bold rule (Denoeux 2008): the disjunctive counterpart of the cautious one. Associative, idempotent. Power sets only.
 
-ValueError for a source without mass on ∅.)"},
+ValueError for a source without mass on ∅, TypeError for BinaryMasses, which have none.)"},
     {"murphy", R"(murphy(*sources)
 --
 
@@ -243,12 +276,24 @@ void bind_rules(py::module_& module) {
 Mean of the mass functions, set by set. Idempotent, not associative; the vacuous mass function dilutes.
 
 weights: shape (s,), >= 0, not all 0; None for equal ones. ValueError for others.)");
-  module.def("decombine", evidence::decombine, py::arg("whole"), py::arg("part"), R"(decombine(whole, part)
+  module.def(
+      "decombine", [](const MassFunction& whole, const MassFunction& part) { return evidence::decombine(whole, part); },
+      py::arg("whole"), py::arg("part"), R"(decombine(whole, part)
 --
 
 Takes `part` out of what the conjunctive rule made of it and others: q_whole / q_part (Smets 1995). Power sets of up to
 20 elements. None where the quotient is no mass function. ValueError for a dogmatic part (m(Θ) = 0).)");
   bind_folds(module);
+  module.def(
+      "pcr5_plus", [](const py::args& sources) { return evidence::pcr5_plus(binary_masses(listed(sources))); },
+      R"(pcr5_plus(*sources)
+--
+
+PCR5 without a share for ignorance, so that the vacuous mass is neutral (T. Dezert, J. Dezert and Smarandache 2021). Of
+BinaryMasses: a FusedBinaryMass.)");
+  module.def(
+      "pcr6_plus", [](const py::args& sources) { return evidence::pcr6_plus(binary_masses(listed(sources))); },
+      "pcr6_plus(*sources)\n--\n\nPCR6 without a share for ignorance, as pcr5_plus.");
 }
 
 }  // namespace credo::python

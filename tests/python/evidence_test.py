@@ -332,17 +332,32 @@ class RefinementTest(unittest.TestCase):
 class TwoElementsTest(unittest.TestCase):
     def test_closed_forms_agree_with_the_general_ones(self):
         frame = Frame.shafer(["YES", "NO"])
-        a, b = BinaryMass(0.6, 0.1), BinaryMass(0.2, 0.5)
-        general = [m.to_mass_function(frame) for m in (a, b)]
-        for name in "dempster", "yager":
-            closed, open_ = (getattr(evidence, name)(*sources) for sources in ((a, b), general))
-            np.testing.assert_allclose(list(closed.mass), list(BinaryMass.from_mass_function(open_.mass)), atol=1e-15)
-            self.assertAlmostEqual(closed.conflict, open_.conflict)
-        np.testing.assert_allclose(list(evidence.conjunctive(a, b)),
-                                   [evidence.conjunctive(general).mass[s] for s in ("YES", "NO", "Θ", "∅")])
+        sources = [BinaryMass(0.6, 0.1), BinaryMass(0.2, 0.5), BinaryMass(0.3, 0.3)]
+        general = [m.to_mass_function(frame) for m in sources]
+        for name in evidence.rules().keys() - {"bold"}:
+            closed, fused = (getattr(evidence, name)(s) for s in (sources, general))
+            masses = [fused.mass[s] for s in ("YES", "NO", "Θ")]
+            if name in ("conjunctive", "cautious"):
+                np.testing.assert_allclose(list(closed), [*masses, fused.conflict], atol=1e-12, err_msg=name)
+            else:
+                np.testing.assert_allclose([*closed.mass, closed.conflict], [*masses, fused.conflict], atol=1e-12,
+                                           err_msg=name)
+        np.testing.assert_allclose(list(evidence.average(sources, weights=[1, 2, 1]).mass), [0.325, 0.35, 0.325])
         self.assertIsNone(evidence.dempster(BinaryMass(yes=1.0), BinaryMass(no=1.0)))
-        with self.assertRaisesRegex(TypeError, "for pcr5 use to_mass_function"):
-            evidence.pcr5(a, b)
+
+    def test_ignorance_is_neutral_in_the_repaired_rules(self):
+        sources = [BinaryMass(0.6, 0.1), BinaryMass(0.2, 0.5)]
+        for rule in evidence.pcr5_plus, evidence.pcr6_plus:
+            np.testing.assert_allclose(list(rule(*sources, BinaryMass()).mass), list(evidence.pcr5(sources).mass),
+                                       atol=1e-12)
+
+    def test_what_binary_masses_cannot_is_refused(self):
+        with self.assertRaisesRegex(TypeError, "bold is not defined"):
+            evidence.bold(BinaryMass(0.5), BinaryMass(0.5))
+        with self.assertRaises(TypeError):
+            evidence.pcr5_plus(M1, M2)
+        with self.assertRaisesRegex(ValueError, "unknown = 0"):
+            evidence.cautious(BinaryMass(yes=1.0))
 
     def test_masses_are_checked_and_read_out(self):
         yes, no, unknown = BinaryMass(0.5, 0.25)
