@@ -120,11 +120,25 @@ MassFunction MassFunction::consonant(Frame frame, std::span<const double> contou
   return MassFunction(std::move(frame), std::span<const Focal>(focals));
 }
 
+MassFunction MassFunction::restored(Frame frame, std::span<const Focal> focals) {
+  MassFunction result(std::move(frame), focals);
+  if (!std::ranges::equal(result.focals_, focals, {}, &Focal::set, &Focal::set)) {
+    refuse("the focal elements to restore must be ordered by proposition, each once and with a mass > 0");
+  }
+  result.focals_.assign(focals.begin(), focals.end());
+  return result;
+}
+
+MassFunction MassFunction::with_rest_unknown(Frame frame, std::span<const Focal> focals) {
+  std::vector<Focal> all(focals.begin(), focals.end());
+  all.push_back({frame.all(), std::max(0.0, 1.0 - checked_sum(frame, focals))});
+  return MassFunction(std::move(frame), std::span<const Focal>(all));
+}
+
 MassFunction MassFunction::with_rest_unknown(Frame frame,
                                              std::initializer_list<std::pair<std::string_view, double>> focals) {
-  std::vector<Focal> all = parsed(frame, focals);
-  all.push_back({frame.all(), std::max(0.0, 1.0 - checked_sum(frame, all))});
-  return MassFunction(std::move(frame), std::span<const Focal>(all));
+  const std::vector<Focal> read = parsed(frame, focals);
+  return with_rest_unknown(std::move(frame), std::span<const Focal>(read));
 }
 
 double MassFunction::mass(const Proposition& set) const {

@@ -50,7 +50,11 @@ class MassFunction {
   /// The mass function with nested focal elements whose plausibilities of the elements are these, a possibility
   /// distribution. Power sets only. \param contour  size n, each in [0, 1], the largest 1
   [[nodiscard]] static MassFunction consonant(Frame frame, std::span<const double> contour);
+  /// What focals() of a mass function gave, to the last bit: the constructor divides by the sum, which rounds.
+  /// \throws std::invalid_argument as the constructor, or unless ordered by proposition, each once, all > 0
+  [[nodiscard]] static MassFunction restored(Frame frame, std::span<const Focal> focals);
   /// The rest to 1 goes to Θ. \throws as the constructor, but for a sum below 1
+  [[nodiscard]] static MassFunction with_rest_unknown(Frame frame, std::span<const Focal> focals);
   [[nodiscard]] static MassFunction with_rest_unknown(
       Frame frame, std::initializer_list<std::pair<std::string_view, double>> focals);
 

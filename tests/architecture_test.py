@@ -18,11 +18,17 @@ FLOORS = {
     "results": 5,
     "evaluation": 6,
     "apps": 7,
+    "python": 7,
+}
+
+# Rooms that use fewer rooms than their floor allows.
+ONLY = {
+    "python": {"evidence"},
 }
 
 # Prefix of an include -> the rooms that may have it. Eigen is everywhere but in evidence.
 THIRD_PARTY = {
-    "Eigen/": set(FLOORS) - {"evidence"},
+    "Eigen/": set(FLOORS) - {"evidence", "python"},
     "opencv2/core": {"sensors", "perception", "sim", "datasets", "tracking", "localization", "results", "evaluation",
                      "apps"},
     "opencv2/imgproc": {"perception", "sim", "datasets", "results"},
@@ -34,6 +40,7 @@ THIRD_PARTY = {
     "oneapi/": {"mapping"},
     "fmt/": {"results", "evaluation", "apps"},
     "CLI/": {"apps"},
+    "pybind11/": {"python"},
     "nlohmann/": {"apps"},
     "zlib.h": {"datasets"},
     "unistd.h": {"apps", "datasets"},
@@ -58,6 +65,8 @@ def faults_of(path, room):
                 yield f"{path}:{number}: include from the root of the tree: \"{quoted.group(1)}\""
             elif other != room and FLOORS[other] >= FLOORS[room]:
                 yield f"{path}:{number}: {room} (floor {FLOORS[room]}) may not use {other} (floor {FLOORS[other]})"
+            elif other != room and other not in ONLY.get(room, FLOORS):
+                yield f"{path}:{number}: {room} uses {', '.join(ONLY[room])} only, not {other}"
         if angled:
             name = angled.group(1)
             prefix = next((p for p in THIRD_PARTY if name.startswith(p)), None)

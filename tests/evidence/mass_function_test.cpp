@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "evidence/discounting.hpp"
 #include "evidence/measures.hpp"
 #include "evidence/moebius.hpp"
 
@@ -60,6 +61,19 @@ TEST(MassFunction, TheRestIsUnknownOnRequest) {
   const MassFunction mass = MassFunction::with_rest_unknown(kAbc, {{"A", 0.3}, {"B ∪ C", 0.2}});
   EXPECT_DOUBLE_EQ(mass.mass("Θ"), 0.5);
   EXPECT_THROW(MassFunction::with_rest_unknown(kAbc, {{"A", 0.8}, {"B", 0.3}}), std::invalid_argument);
+}
+
+TEST(MassFunction, IsRestoredToTheLastBit) {
+  // The sum of these is not 1 in double: dividing by it again would change them.
+  const MassFunction mass(kAbc, {{"A", 0.7}, {"B", 0.1}, {"A ∪ B", 0.1}, {"C", 0.1}});
+  const MassFunction rounded = discount(mass, 1.0 / 3.0);
+  EXPECT_EQ(MassFunction::restored(kAbc, rounded.focals()), rounded);
+  EXPECT_EQ(MassFunction::restored(kAbc, mass.focals()), mass);
+
+  const Focal unordered[] = {{kAbc.parse("B"), 0.5}, {kAbc.parse("A"), 0.5}};
+  EXPECT_THROW((void)MassFunction::restored(kAbc, unordered), std::invalid_argument);
+  const Focal no_mass[] = {{kAbc.parse("B"), 0.5}};
+  EXPECT_THROW((void)MassFunction::restored(kAbc, no_mass), std::invalid_argument);
 }
 
 TEST(MassFunction, HasItsSpecialKinds) {

@@ -1,0 +1,3 @@
+# SPDX-FileCopyrightText: The Credo Authors
+# SPDX-License-Identifier: Apache-2.0
+"""Credo in Python: `credo.evidence`, belief functions."""
