@@ -36,9 +36,7 @@ class Proposition {
     return result;
   }
   /// The regions 0 .. 63 from the bits of a number: on a power set of up to 64 elements, the subset of that index.
-  [[nodiscard]] static constexpr Proposition from_bits(std::uint64_t bits) {
-    return Proposition({bits, 0, 0, 0});
-  }
+  [[nodiscard]] static constexpr Proposition from_bits(std::uint64_t bits) { return Proposition({bits, 0, 0, 0}); }
 
   [[nodiscard]] constexpr std::uint64_t low_bits() const { return words_[0]; }  ///< inverse of from_bits
   [[nodiscard]] constexpr bool empty() const { return (words_[0] | words_[1] | words_[2] | words_[3]) == 0; }
