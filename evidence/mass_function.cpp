@@ -199,7 +199,7 @@ std::optional<Fused> normalised(const MassFunction& mass) {
   return Fused{rest.mass_function(mass.frame(), 1.0 / kept), mass.conflict()};
 }
 
-const Frame& Sources::common_frame() const {
+Frame Sources::common_frame() const {
   if (masses_.empty()) throw std::invalid_argument("at least one mass function is needed: an empty list has no frame");
   for (const MassFunction& mass : masses_) {
     if (!(mass.frame() == masses_.front().frame())) {

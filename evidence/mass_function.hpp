@@ -116,7 +116,7 @@ class Sources {
   [[nodiscard]] auto end() const { return masses_.end(); }
   [[nodiscard]] const MassFunction& operator[](std::size_t i) const { return masses_[i]; }
   /// \throws std::invalid_argument unless there is at least one mass function and all have the same frame
-  const Frame& common_frame() const;
+  Frame common_frame() const;
 
  private:
   std::span<const MassFunction> masses_;
