@@ -97,7 +97,7 @@ class Products {
     }
   }
 
-  const Frame frame_;
+  Frame frame_;
   std::vector<std::vector<Member>> sources_;
   std::vector<Member> members_;
 };

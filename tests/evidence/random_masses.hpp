@@ -9,7 +9,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "evidence/binary_mass.hpp"
@@ -62,5 +64,35 @@ inline double distance(const GridMass& a, const GridMass& b) {
   return std::max({std::abs(a.empty - b.empty), std::abs(a.occupied - b.occupied), std::abs(a.conflict - b.conflict),
                    std::abs(a.unknown - b.unknown)});
 }
+
+// Masses of every magnitude from 1e-9 on, some of them 0 or 1.
+class MassesOfAllMagnitudes {
+ public:
+  BinaryMass next() {
+    std::array<double, 3> raw{};
+    double sum = 0.0;
+    for (double& value : raw) sum += value = magnitude();
+    if (sum == 0.0) return BinaryMass::vacuous();
+    return {raw[0] / sum, raw[1] / sum, raw[2] / sum};
+  }
+  std::vector<BinaryMass> next(std::size_t count) {
+    std::vector<BinaryMass> result;
+    for (std::size_t i = 0; i < count; ++i) result.push_back(next());
+    return result;
+  }
+
+ private:
+  double magnitude() {
+    switch (random_() % 6) {
+      case 0: return 0.0;
+      case 1: return 1.0;
+      case 2: return std::pow(10.0, -9.0 * uniform());
+      default: return uniform();
+    }
+  }
+  double uniform() { return static_cast<double>(random_()) / static_cast<double>(std::mt19937::max()); }
+
+  std::mt19937 random_{11};
+};
 
 }  // namespace credo::evidence
