@@ -14,6 +14,7 @@
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/map_extent.hpp"
+#include "apps/map_saturation.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "apps/picture_folder.hpp"
@@ -229,6 +230,7 @@ void execute(MapOptions o) {
   if (!o.pictures.empty()) pictures.emplace(o.pictures, o.out, folder.path(), o.force);
   const mapping::TrajectoryMap map = about(o.source, [&] { return build(o, parts); });
   check_overlap(o, parts, map, poses);
+  warn_of_saturation(map.grid);
   about(o.source, [&] { write(o, map, parts, poses, folder.path(), pictures); });
   Interruptible::check();
   folder.commit();

@@ -10,6 +10,7 @@
 #include "apps/about.hpp"
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/map_saturation.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "apps/run_pictures.hpp"
@@ -79,6 +80,7 @@ Outcome run_and_write(const datasets::Dataset& dataset, const RunOptions& option
     progress.update(static_cast<double>(step.index + 1) / static_cast<double>(step.count));
   });
   if (pictures) pictures->draw_summary(outcome);
+  warn_of_saturation(outcome.map);
   writer.add_map(outcome.map, {},
                  options.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized);
   writer.add_config(results::to_yaml(results::RunConfig{.version = CREDO_VERSION,

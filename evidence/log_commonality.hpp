@@ -52,13 +52,15 @@ using LogCommonality = BasicLogCommonality<double>;
 using LogCommonalityF = BasicLogCommonality<float>;  ///< sums depend on their order in the last digits
 
 /// The cell of a map: Q11.20 fixed point. Sums are bit-identical in any order, thread and robot.
-/// One increment is off by at most 2^-21 in each logarithm. The range is [-2048, 0]: at the reliability 0.99, whose
-/// strongest increment is ln 0.01, room for 444 of the strongest. Sums stop at the floor; they stay independent of the
-/// order, because contributions are never positive, but what was beyond is lost: `saturated` tells.
+/// One increment is off by at most 2^-21 in each logarithm. The range is [-2048, 0]; one update takes no more of it
+/// than ln 0.01, its reliability being kMaxReliability at most (fixed_increment), so that there is room for 444 of the
+/// strongest. Sums stop at the floor; they stay independent of the order, because contributions are never positive, but
+/// what was beyond is lost: `saturated` tells.
 struct FixedLogCommonality {
   static constexpr int kFractionBits = 20;
   static constexpr double kUnit = 1.0 / (1 << kFractionBits);
   static constexpr std::int32_t kFloor = std::numeric_limits<std::int32_t>::min();
+  static constexpr double kMaxReliability = 0.99;  ///< of one update
 
   std::int32_t empty = 0;
   std::int32_t occupied = 0;
@@ -135,6 +137,15 @@ static_assert(sizeof(FixedLogCommonality) == 12 && std::is_trivially_copyable_v<
     return static_cast<std::int32_t>(std::llround(scaled));
   };
   return {fixed(cell.empty), fixed(cell.occupied), fixed(cell.unknown)};
+}
+
+/// What one reading adds to a cell: its evidence in fixed point. What is said to be more reliable than kMaxReliability
+/// counts as that, so that an update is never below ln 0.01.
+/// \param reliability  in [0, 1]
+/// \throws std::invalid_argument unless it is, and the mass is one
+[[nodiscard]] inline FixedLogCommonality fixed_increment(const GridMass& mass, double reliability) {
+  const bool exceeds = reliability > FixedLogCommonality::kMaxReliability && reliability <= 1.0;
+  return quantise(log_commonality(mass, exceeds ? FixedLogCommonality::kMaxReliability : reliability));
 }
 
 /// The whole cell discounted (decay): ln(1 - r + r q). Does not commute with merging: what is merged must have been

@@ -20,6 +20,10 @@ bool all_zero(const Channel& channel) {
   return bits == 0;
 }
 
+bool at_floor(const Channel& channel) {
+  return std::ranges::find(channel, FixedLogCommonality::kFloor) != channel.end();
+}
+
 /// FixedLogCommonality::operator+=, for a whole channel, in a form that the compiler vectorises: a sum of two negative
 /// numbers that is not negative has passed the floor.
 void add_channel(Channel& to, const Channel& from) {
@@ -68,6 +72,8 @@ CellBox evidence_box(const Tile& tile) {
 }
 
 }  // namespace
+
+bool Tile::is_saturated() const { return at_floor(empty) || at_floor(occupied) || at_floor(unknown); }
 
 bool Tile::is_vacuous() const { return all_zero(empty) && all_zero(occupied) && all_zero(unknown); }
 
@@ -142,6 +148,14 @@ void EvidentialGrid::remove(const EvidentialGrid& other) {
     subtract_channel(found->second.unknown, what.unknown);
   }
   prune();
+}
+
+std::vector<TileIndex> EvidentialGrid::saturated_tiles() const {
+  std::vector<TileIndex> result;
+  for (const auto& [index, tile] : tiles_) {
+    if (tile.is_saturated()) result.push_back(index);
+  }
+  return result;
 }
 
 void EvidentialGrid::prune() {

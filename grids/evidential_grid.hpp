@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <vector>
 
 #include "evidence/log_commonality.hpp"
 #include "grids/georeference.hpp"
@@ -33,6 +34,7 @@ struct Tile {
   alignas(64) std::array<std::int32_t, kCells> unknown{};   ///< ln q(empty or occupied)
 
   [[nodiscard]] bool is_vacuous() const;
+  [[nodiscard]] bool is_saturated() const;  ///< a cell has reached the end of its range: it has lost evidence
   friend bool operator==(const Tile&, const Tile&) = default;
 };
 
@@ -45,7 +47,8 @@ struct Tile {
 /// An evidential grid map: every cell is a product of commonalities, kept as a fixed-point logarithm. An update is
 /// three integer additions, so is a merge, and the sum is the same to the last bit whatever the order, the thread or
 /// the robot. The grid has no edge: tiles appear where there is evidence, and an absent tile is vacuous. A cell that
-/// has taken in so much that it reaches the floor of its range (evidence::FixedLogCommonality) stays there.
+/// has taken in so much that it reaches the floor of its range (evidence::FixedLogCommonality) stays there; its tile is
+/// reported.
 class EvidentialGrid {
  public:
   /// 2^26 cells, 0.8 GB: a square of 400 m with cells of 5 cm.
@@ -82,6 +85,9 @@ class EvidentialGrid {
   void remove(const EvidentialGrid& other);
   /// Drops the tiles that hold no evidence.
   void prune();
+
+  /// The tiles in which a cell has reached the end of its range; ordered.
+  [[nodiscard]] std::vector<TileIndex> saturated_tiles() const;
 
   /// The smallest box that holds all evidence; empty for a vacuous grid.
   [[nodiscard]] CellBox bounding_box() const;

@@ -21,7 +21,7 @@ inline constexpr int kLevels = 32;
                                                                                        double reliability) {
   std::array<evidence::FixedLogCommonality, kLevels + 1> table;
   for (int level = 0; level <= kLevels; ++level)
-    table[level] = evidence::quantise(evidence::log_commonality(mass, reliability * reliability_of(level)));
+    table[level] = evidence::fixed_increment(mass, reliability * reliability_of(level));
   return table;
 }
 

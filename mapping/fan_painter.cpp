@@ -65,7 +65,7 @@ const FanPainter::Table& FanPainter::table(double reading_m, int level) {
     for (int a = 0; a < kAngleBins; ++a) {
       const double theta = std::asin(std::sqrt((a + 0.5) / kAngleBins) * widest);
       const evidence::GridMass mass = echo ? source_.mass(rho, theta, reading) : source_.no_echo_mass(rho, theta);
-      table.rows[row][a] = evidence::quantise(evidence::log_commonality(mass, reliability));
+      table.rows[row][a] = evidence::fixed_increment(mass, reliability);
     }
   }
   return table;

@@ -67,7 +67,7 @@ void print_probabilities(double reliability) {
 }  // namespace
 
 int main() {
-  std::cout << std::fixed << std::setprecision(4);
+  std::cout << std::fixed << std::setprecision(5);
   std::cout << "rule                 M       C       T     M∪C     M∪T     C∪T       Θ       ∅  conflict\n";
   for (const NamedRule& rule : all_rules()) print_masses(rule);
 

@@ -119,7 +119,7 @@ TEST(Stability, LinearMassesInFloatLockAndLogarithmsFlipWhenTheyShould) {
 
 std::vector<FixedLogCommonality> increments(const std::vector<GridMass>& all) {
   std::vector<FixedLogCommonality> result;
-  for (const GridMass& reading : all) result.push_back(quantise(log_commonality(reading, kMaxReliability)));
+  for (const GridMass& reading : all) result.push_back(fixed_increment(reading, FixedLogCommonality::kMaxReliability));
   return result;
 }
 
@@ -173,18 +173,20 @@ TEST(Stability, FixedPointTellsTheEndOfItsRangeAndOnlyThen) {
   EXPECT_EQ(range, 2048.0);
 }
 
-// No update of an admitted reliability comes near the range by itself: the strongest takes ln(1 - r) of its 2048.
+// The strongest update takes ln(1 - r) of the range of 2048, and r is .99 at most.
 TEST(Stability, OneUpdateIsBoundedByItsReliability) {
-  for (const double reliability : {.5, .9, .99, .999999}) {
+  for (const double reliability : {.5, .9, .99, .999999, 1.0}) {
+    const double strongest = std::log1p(-std::min(reliability, .99));
     for (const GridMass& reading : {GridMass{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}}) {
-      const FixedLogCommonality increment = quantise(log_commonality(reading, reliability));
+      const FixedLogCommonality increment = fixed_increment(reading, reliability);
       EXPECT_FALSE(increment.saturated());
-      EXPECT_NEAR(increment.value().unknown, std::log1p(-reliability), FixedLogCommonality::kUnit);
-      EXPECT_GE(std::min(increment.value().empty, increment.value().occupied),
-                std::log1p(-reliability) - FixedLogCommonality::kUnit);
+      EXPECT_NEAR(increment.value().unknown, strongest, FixedLogCommonality::kUnit);
+      EXPECT_GE(std::min(increment.value().empty, increment.value().occupied), strongest - FixedLogCommonality::kUnit);
     }
   }
-  EXPECT_THROW((void)log_commonality({1.0, 0.0, 0.0, 0.0}, 1.0), std::invalid_argument);
+  for (const double wrong : {-.1, 1.1, std::nan("")}) {
+    EXPECT_THROW((void)fixed_increment({1.0, 0.0, 0.0, 0.0}, wrong), std::invalid_argument);
+  }
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -80,6 +79,13 @@ FusionRule rule_of(const json& in) {
 }
 
 // In the vectors the elements are 1, 2, 3 .., ∪ is u and ∩ is n.
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size()) {
+    text.replace(at, what.size(), by);
+  }
+  return text;
+}
+
 Frame frame(const json& in) {
   std::vector<std::string> names;
   for (int i = 1; i <= in.at("n"); ++i) names.push_back(std::to_string(i));
@@ -87,13 +93,13 @@ Frame frame(const json& in) {
   if (model == "shafer") return Frame::shafer(names);
   if (model == "free") return Frame::free_dsm(names);
   std::vector<std::string> empty;
-  for (std::string constraint : in.at("empty")) empty.push_back(std::regex_replace(constraint, std::regex("n"), "∩"));
+  for (const std::string constraint : in.at("empty")) empty.push_back(replaced(constraint, "n", "∩"));
   return Frame::hybrid(names, empty);
 }
 
 Proposition proposition(const Frame& frame, const std::string& name) {
   if (name == "0") return {};
-  return frame.parse(std::regex_replace(std::regex_replace(name, std::regex("n"), "∩"), std::regex("u"), "∪"));
+  return frame.parse(replaced(replaced(name, "n", "∩"), "u", "∪"));
 }
 
 std::string name_of(const Frame& frame, const Proposition& set) {
@@ -104,7 +110,7 @@ std::string name_of(const Frame& frame, const Proposition& set) {
       if (frame.cardinality(frame.element(i)) > 0) name += (name.empty() ? "" : "u") + frame.name(i);
     }
   }
-  name = std::regex_replace(std::regex_replace(name, std::regex(" ∩ "), "n"), std::regex(" ∪ "), "u");
+  name = replaced(replaced(name, " ∩ ", "n"), " ∪ ", "u");
   return name == "∅" ? "0" : name;
 }
 

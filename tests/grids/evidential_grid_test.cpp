@@ -152,6 +152,16 @@ TEST(EvidentialGrid, MergingStopsAtTheFloorAsAddingDoes) {
   EXPECT_EQ(added, merged);
 }
 
+TEST(EvidentialGrid, ReportsTilesThatReachTheEndOfTheirRange) {
+  EvidentialGrid grid;
+  for (int i = 0; i < 444; ++i) grid.add({70, 3}, evidence::fixed_increment({1.0, 0.0, 0.0, 0.0}, 1.0));
+  grid.add({-1, -1}, kSeenEmpty);
+  EXPECT_TRUE(grid.saturated_tiles().empty());
+  grid.add({70, 3}, evidence::fixed_increment({1.0, 0.0, 0.0, 0.0}, 1.0));
+  ASSERT_EQ(grid.saturated_tiles().size(), 1u);
+  EXPECT_EQ(grid.saturated_tiles().front(), tile_of({70, 3}));
+}
+
 TEST(EvidentialGrid, RefusesAResolutionThatIsNone) {
   for (const double resolution : {0.0, -0.05, kInf, kNan})
     EXPECT_THROW(EvidentialGrid(Georeference{.resolution_m = resolution}), std::invalid_argument) << resolution;
