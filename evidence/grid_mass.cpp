@@ -5,9 +5,11 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "evidence/binary_mass.hpp"
 
@@ -122,7 +124,8 @@ double pignistic(const GridMass& mass, GridElement element, GridModel model) {
 }
 
 double dsmp(const GridMass& mass, GridElement element, GridModel model, double epsilon) {
-  if (!(epsilon >= 0.0)) throw std::invalid_argument("the epsilon of DSmP must be >= 0");
+  if (!(epsilon >= 0.0) || std::isinf(epsilon))
+    throw std::invalid_argument("the epsilon of DSmP must be finite and >= 0; got " + std::to_string(epsilon));
   const unsigned wanted = regions_of(element, model);
   const std::array<RegionMass, 4> all = focals(divided(mass, model), model);
   const auto weight = [&](unsigned regions) {  // of the single regions inside, plus epsilon each

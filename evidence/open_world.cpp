@@ -71,7 +71,7 @@ void OpenWorldMatcher::reserve(std::size_t candidates) {
   normalised_.match.reserve(candidates);
   plausibility_.match.reserve(candidates);
   pignistic_.match.reserve(candidates);
-  prepare_nodes(nodes_for_degree(candidates));
+  reserve_rules(nodes_for_degree(candidates));
 }
 
 void OpenWorldMatcher::combine(std::span<const BinaryMass> evidence) {
@@ -134,13 +134,11 @@ const OpenWorldValues& OpenWorldMatcher::plausibility() {
 const OpenWorldValues& OpenWorldMatcher::pignistic() {
   assert(!total_conflict());
   const std::size_t count = evidence_.size();
-  const std::size_t rule = nodes_for_degree(count);
-  prepare_nodes(rule);
   pignistic_.match.assign(open_.match.begin(), open_.match.end());
   pignistic_.none = 0.0;
   factors_.resize(count + 1);
   factors_[count] = 1.0;
-  for (const Node& node : std::span(nodes_).subspan(rule * (rule - 1) / 2, rule)) {
+  for (const Node& node : rule_of(nodes_for_degree(count))) {
     for (std::size_t i = count; i-- > 0;)
       factors_[i] = factors_[i + 1] * (evidence_[i].no + evidence_[i].unknown * node.x);
     pignistic_.none += node.weight * factors_[0];
@@ -171,22 +169,28 @@ OpenWorldDecision OpenWorldMatcher::decide_by_pignistic(double min_margin) {
   const OpenWorldValues& probability = pignistic();
   const Leaders lead = leaders(probability.match, probability.none);
   OpenWorldDecision decision{MatchDecision::kUndecided, -1, lead.best, lead.best - lead.second};
-  if (decision.margin < min_margin) return decision;
+  if (!(decision.margin >= min_margin)) return decision;
   const bool none = lead.first == static_cast<int>(probability.match.size());
   decision.kind = none ? MatchDecision::kNone : MatchDecision::kMatched;
   decision.candidate = none ? -1 : lead.first;
   return decision;
 }
 
-void OpenWorldMatcher::prepare_nodes(std::size_t rules) {
-  for (; rules_ < rules; ++rules_) {
-    const int n = static_cast<int>(rules_) + 1;
-    for (int i = 0; i < n; ++i) {
-      const double t = legendre_root(n, i);
-      const double slope = legendre(n, t).slope;
-      nodes_.push_back({0.5 * (1.0 - t), 1.0 / ((1.0 - t * t) * slope * slope)});
-    }
+void OpenWorldMatcher::reserve_rules(std::size_t count) {
+  nodes_.resize(std::max(nodes_.size(), count * (count + 1) / 2));
+}
+
+std::span<const OpenWorldMatcher::Node> OpenWorldMatcher::rule_of(std::size_t count) {
+  reserve_rules(count);
+  const std::span<Node> rule = std::span(nodes_).subspan(count * (count - 1) / 2, count);
+  if (rule.front().weight > 0.0) return rule;
+  const int n = static_cast<int>(count);
+  for (int i = 0; i < n; ++i) {
+    const double t = legendre_root(n, i);
+    const double slope = legendre(n, t).slope;
+    rule[static_cast<std::size_t>(i)] = {0.5 * (1.0 - t), 1.0 / ((1.0 - t * t) * slope * slope)};
   }
+  return rule;
 }
 
 double assignment_weight(const BinaryMass& evidence) {

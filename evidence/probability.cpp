@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "evidence/measures.hpp"
 
@@ -67,7 +68,8 @@ double dsmp(const MassFunction& mass, const Proposition& set, double epsilon) {
 }
 
 std::vector<double> dsmp_regions(const MassFunction& mass, double epsilon) {
-  if (!(epsilon >= 0.0) || std::isinf(epsilon)) throw std::invalid_argument("the epsilon of DSmP must be >= 0");
+  if (!(epsilon >= 0.0) || std::isinf(epsilon))
+    throw std::invalid_argument("the epsilon of DSmP must be finite and >= 0; got " + std::to_string(epsilon));
   std::vector<double> weights(mass.frame().region_count(), epsilon);
   for (const Focal& focal : mass.focals()) {
     const Proposition set = mass.frame().existing(focal.set);

@@ -221,6 +221,7 @@ TEST(OpenWorld, TwoEqualCandidatesAreAmbiguous) {
   EXPECT_EQ(matcher.decide_by_pignistic().kind, MatchDecision::kUndecided);
   EXPECT_EQ(matcher.decide_by_pignistic().candidate, -1);
   EXPECT_EQ(matcher.decide_by_pignistic(0.0).kind, MatchDecision::kMatched);
+  EXPECT_EQ(matcher.decide_by_pignistic(std::numeric_limits<double>::quiet_NaN()).kind, MatchDecision::kUndecided);
   EXPECT_EQ(matcher.decide_by_mass().candidate, 0);  // .24, .24, ignorance .16
 }
 

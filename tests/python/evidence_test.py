@@ -383,6 +383,8 @@ class TwoElementsTest(unittest.TestCase):
             both.belief("occupied", "open")
         with self.assertRaisesRegex(ValueError, "epsilon"):
             both.dsmp("occupied", "free", -1.0)
+        with self.assertRaisesRegex(ValueError, "epsilon"):
+            both.dsmp("occupied", "free", math.inf)
 
     def test_cells_add_and_subtract(self):
         reading = evidence.log_commonality(GridMass(occupied=0.7), reliability=0.9)
@@ -392,7 +394,9 @@ class TwoElementsTest(unittest.TestCase):
         self.assertEqual(fixed - reading.quantise() + reading.quantise(), fixed)
         self.assertAlmostEqual(fixed.value().occupied, cell.occupied, places=6)
         self.assertFalse(fixed.saturated)
-        for make in (lambda: LogCommonality(0.1), lambda: LogCommonality(math.nan), lambda: FixedLogCommonality(1),
+        for make in (lambda: LogCommonality(0.1), lambda: LogCommonality(math.nan),
+                     lambda: LogCommonality(-math.inf, -math.inf, -math.inf), lambda: LogCommonality(-1.0, -1.0, 0.0),
+                     lambda: FixedLogCommonality(1),
                      lambda: cell.discount(-0.1), lambda: evidence.log_commonality(GridMass(), 1.0)):
             with self.assertRaises(ValueError):
                 make()
