@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <random>
 #include <stdexcept>
 
@@ -200,6 +201,18 @@ TEST(Rules, TooManyProductsAreRefused) {
               ThrowsMessage<std::invalid_argument>(HasSubstr("products of focal elements")));
   EXPECT_NO_THROW(static_cast<void>(pcr2(sources)));  // no product is visited
   EXPECT_NO_THROW(static_cast<void>(dubois_prade(sources)));
+}
+
+TEST(Rules, Pcr2NeedsNoProductsOfManySources) {  // 5^40 of them
+  const Frame frame = Frame::shafer(element_names(10));
+  std::vector<MassFunction> sources;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    std::vector<Focal> focals;
+    for (std::uint64_t k = 1; k <= 5; ++k)
+      focals.push_back({Proposition::from_bits((37 * i + 211 * k) % 1023 + 1), .2});
+    sources.emplace_back(frame, focals);
+  }
+  EXPECT_NEAR(total(pcr2(sources).mass), 1.0, 1e-12);
 }
 
 TEST(Rules, SourcesThatCannotBeCombinedAreRefused) {
