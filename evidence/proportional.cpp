@@ -148,6 +148,7 @@ Fused redistribute_each_product(const Sources& sources, Accumulate accumulate) {
           sum.add(intersection, product);
           return;
         }
+        if (product == 0.0) return;  // underflow: the weights may have no sum either
         conflict += product;
         weights.clear();
         for (const Products::Member& member : members) {
