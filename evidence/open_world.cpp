@@ -4,6 +4,7 @@
 #include "evidence/open_world.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -11,8 +12,20 @@
 namespace credo::evidence {
 namespace {
 
+// There are quadrature rules of 1, 2, 3, ... kConsecutiveRules nodes, beyond that of the powers of two only: they are
+// made once, and a rule of n nodes takes O(n^2).
+constexpr std::size_t kConsecutiveRules = 32;
+
 // Exact for polynomials up to this degree: 2 nodes - 1 >= degree.
-std::size_t nodes_for_degree(std::size_t degree) { return (degree + 2) / 2; }
+std::size_t nodes_for_degree(std::size_t degree) {
+  const std::size_t fewest = (degree + 2) / 2;
+  return fewest <= kConsecutiveRules ? fewest : std::bit_ceil(fewest);
+}
+
+std::size_t nodes_before_rule(std::size_t nodes) {
+  if (nodes <= kConsecutiveRules) return nodes * (nodes - 1) / 2;
+  return kConsecutiveRules * (kConsecutiveRules + 1) / 2 + (nodes - 2 * kConsecutiveRules);
+}
 
 // Value and derivative of the Legendre polynomial of degree n at t, |t| < 1.
 struct Legendre {
@@ -71,7 +84,7 @@ void OpenWorldMatcher::reserve(std::size_t candidates) {
   normalised_.match.reserve(candidates);
   plausibility_.match.reserve(candidates);
   pignistic_.match.reserve(candidates);
-  reserve_rules(nodes_for_degree(candidates));
+  prepare_nodes(nodes_for_degree(candidates));
 }
 
 void OpenWorldMatcher::combine(std::span<const BinaryMass> evidence) {
@@ -134,11 +147,13 @@ const OpenWorldValues& OpenWorldMatcher::plausibility() {
 const OpenWorldValues& OpenWorldMatcher::pignistic() {
   assert(!total_conflict());
   const std::size_t count = evidence_.size();
+  const std::size_t rule = nodes_for_degree(count);
+  prepare_nodes(rule);
   pignistic_.match.assign(open_.match.begin(), open_.match.end());
   pignistic_.none = 0.0;
   factors_.resize(count + 1);
   factors_[count] = 1.0;
-  for (const Node& node : rule_of(nodes_for_degree(count))) {
+  for (const Node& node : std::span(nodes_).subspan(nodes_before_rule(rule), rule)) {
     for (std::size_t i = count; i-- > 0;)
       factors_[i] = factors_[i + 1] * (evidence_[i].no + evidence_[i].unknown * node.x);
     pignistic_.none += node.weight * factors_[0];
@@ -176,21 +191,16 @@ OpenWorldDecision OpenWorldMatcher::decide_by_pignistic(double min_margin) {
   return decision;
 }
 
-void OpenWorldMatcher::reserve_rules(std::size_t count) {
-  nodes_.resize(std::max(nodes_.size(), count * (count + 1) / 2));
-}
-
-std::span<const OpenWorldMatcher::Node> OpenWorldMatcher::rule_of(std::size_t count) {
-  reserve_rules(count);
-  const std::span<Node> rule = std::span(nodes_).subspan(count * (count - 1) / 2, count);
-  if (rule.front().weight > 0.0) return rule;
-  const int n = static_cast<int>(count);
-  for (int i = 0; i < n; ++i) {
-    const double t = legendre_root(n, i);
-    const double slope = legendre(n, t).slope;
-    rule[static_cast<std::size_t>(i)] = {0.5 * (1.0 - t), 1.0 / ((1.0 - t * t) * slope * slope)};
+void OpenWorldMatcher::prepare_nodes(std::size_t rule) {
+  while (largest_rule_ < rule) {
+    largest_rule_ = largest_rule_ < kConsecutiveRules ? largest_rule_ + 1 : 2 * largest_rule_;
+    const int n = static_cast<int>(largest_rule_);
+    for (int i = 0; i < n; ++i) {
+      const double t = legendre_root(n, i);
+      const double slope = legendre(n, t).slope;
+      nodes_.push_back({0.5 * (1.0 - t), 1.0 / ((1.0 - t * t) * slope * slope)});
+    }
   }
-  return rule;
 }
 
 double assignment_weight(const BinaryMass& evidence) {

@@ -76,21 +76,21 @@ class OpenWorldMatcher {
   [[nodiscard]] OpenWorldDecision decide_by_pignistic(double min_margin = kMinPignisticMargin);
 
  private:
-  struct Node {
-    double x;
-    double weight;  // > 0; 0 where the rule has not been computed yet
-  };
-  void reserve_rules(std::size_t count);             // those of 1 .. count nodes
-  std::span<const Node> rule_of(std::size_t count);  // the one with so many nodes, computed when first asked for
+  void prepare_nodes(std::size_t rule);
 
   std::vector<BinaryMass> evidence_;
   std::vector<double> suffix_;   // suffix_[i]: product of 1 - a over the candidates from i on
   std::vector<double> factors_;  // the same of b + c x at one node
   OpenWorldMasses open_, normalised_;
   OpenWorldValues plausibility_, pignistic_;
-  double kept_ = 1.0;        // what is not in conflict
-  double all_out_ = 1.0;     // prod (1 - a_i)
-  std::vector<Node> nodes_;  // Gauss-Legendre on [0, 1] with 1, 2, 3, ... nodes, one rule after the other
+  double kept_ = 1.0;     // what is not in conflict
+  double all_out_ = 1.0;  // prod (1 - a_i)
+  struct Node {
+    double x;
+    double weight;
+  };
+  std::vector<Node> nodes_;  // Gauss-Legendre on [0, 1], one rule after the other by their number of nodes
+  std::size_t largest_rule_ = 0;
 };
 
 /// Weight of giving candidate i to a prediction in a global assignment where leaving it unassigned weighs 0: ln of
