@@ -5,9 +5,9 @@
 
 #include <sstream>
 #include <stdexcept>
-#include <string>
 
 #include "evidence/binary_cell.hpp"
+#include "evidence/reliability.hpp"
 
 namespace credo::evidence {
 namespace {
@@ -144,9 +144,7 @@ void average(BinaryCells<Real> map, BinaryReading<Real> reading) {
 
 template <std::floating_point Real>
 void discount(BinaryCells<Real> cells, std::type_identity_t<Real> reliability) {
-  if (!(reliability >= 0 && reliability <= 1)) {
-    throw std::invalid_argument("a reliability must be in [0, 1]; got " + std::to_string(reliability));
-  }
+  check_reliability(reliability);
   check_sizes(cells, cells.size());
   for (Real& mass : cells.yes) mass *= reliability;
   for (Real& mass : cells.no) mass *= reliability;

@@ -3,6 +3,8 @@
 
 #include "evidence/binary_mass.hpp"
 
+#include <cassert>
+#include <cmath>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -37,6 +39,7 @@ BinaryMass BinaryMass::from(double yes, double no) {
 }
 
 void Conjunction::add(const BinaryMass& source) {
+  assert(std::abs(source.yes + source.no + source.unknown - 1.0) < 1e-6);
   conflict_ += unit_ * (yes_ * source.no + no_ * source.yes);
   yes_ = yes_ * (source.yes + source.unknown) + unknown_ * source.yes;
   no_ = no_ * (source.no + source.unknown) + unknown_ * source.no;

@@ -8,12 +8,15 @@
 #include <optional>
 #include <span>
 
+#include "evidence/reliability.hpp"
+
 namespace credo::evidence {
 
 inline constexpr double kMassTolerance = 1e-9;  ///< by which masses that are given may sum to more than 1
 
-/// A mass function on the two-element frame {YES, NO}: the belief that the robot carries about one assertion.
-/// yes + no + unknown = 1; `unknown` is the mass of the whole frame (ignorance).
+/// A mass function on the two-element frame {YES, NO}: the belief in one assertion. yes + no + unknown = 1; `unknown`
+/// is the mass of the whole frame (ignorance). The members are not checked: set all three, or use `from`, which gives
+/// the rest to ignorance.
 struct BinaryMass {
   double yes = 0.0;
   double no = 0.0;
@@ -93,8 +96,10 @@ class Conjunction {
 [[nodiscard]] std::optional<FusedBinaryMass> fuse(std::initializer_list<BinaryMass> sources, FusionRule rule);
 
 /// Classical (Shafer) discounting: committed masses are multiplied by `reliability`, the rest is ignorance.
-/// \param reliability  in [0, 1]; 1 keeps the mass, 0 makes it vacuous.
+/// \param reliability  in [0, 1]; 1 keeps the mass, 0 makes it vacuous
+/// \throws std::invalid_argument for another
 [[nodiscard]] constexpr BinaryMass discount(const BinaryMass& mass, double reliability) {
+  check_reliability(reliability);
   return {.yes = reliability * mass.yes,
           .no = reliability * mass.no,
           .unknown = (1.0 - reliability) + reliability * mass.unknown};

@@ -3,13 +3,11 @@
 
 #pragma once
 
-#include <concepts>
-#include <cstddef>
-#include <initializer_list>
 #include <optional>
 #include <span>
 
 #include "evidence/binary_mass.hpp"
+#include "evidence/source_list.hpp"
 
 namespace credo::evidence {
 
@@ -17,22 +15,7 @@ namespace credo::evidence {
 /// in binary_mass.hpp. On two elements the rule of Dubois and Prade and DSmH are conflict_to_ignorance: YES ∪ NO is the
 /// frame. All are n-ary and commutative; what is not associative is not to be folded (rules.hpp has the laws).
 
-/// The masses that a rule combines: a list in braces, or any contiguous range. A view, for parameters only.
-class BinarySources {
- public:
-  BinarySources(std::initializer_list<BinaryMass> list) : masses_(list.begin(), list.size()) {}
-  template <std::convertible_to<std::span<const BinaryMass>> Range>
-  BinarySources(const Range& masses) : masses_(masses) {}
-
-  [[nodiscard]] std::size_t size() const { return masses_.size(); }
-  [[nodiscard]] auto begin() const { return masses_.begin(); }
-  [[nodiscard]] auto end() const { return masses_.end(); }
-  [[nodiscard]] const BinaryMass& operator[](std::size_t i) const { return masses_[i]; }
-  [[nodiscard]] std::span<const BinaryMass> span() const { return masses_; }
-
- private:
-  std::span<const BinaryMass> masses_;
-};
+using BinarySources = SourceList<BinaryMass>;
 
 /// Disjunctive rule (Dubois and Prade 1986): what all sources agree on; at least one is reliable. No conflict arises.
 /// \throws std::invalid_argument for no source: what is neutral here, m(∅) = 1, is no BinaryMass
@@ -90,7 +73,10 @@ class BinarySources {
 /// Contextual discounting (Mercier, Quost and Denoeux 2008): how reliable the source is depends on the truth. What it
 /// says for YES is wrong only where the truth is NO, so that it is the reliability there that counts, and vice versa.
 /// \param if_yes, if_no  reliability where the truth is YES and where it is NO, in [0, 1]
+/// \throws std::invalid_argument for others
 [[nodiscard]] constexpr BinaryMass contextual_discount(const BinaryMass& mass, double if_yes, double if_no) {
+  check_reliability(if_yes);
+  check_reliability(if_no);
   return {.yes = if_no * mass.yes,
           .no = if_yes * mass.no,
           .unknown = mass.unknown + ((1.0 - if_no) * mass.yes + (1.0 - if_yes) * mass.no)};

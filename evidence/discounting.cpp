@@ -8,15 +8,6 @@
 #include <string>
 
 namespace credo::evidence {
-namespace {
-
-void check_reliability(double reliability) {
-  if (!(reliability >= 0.0 && reliability <= 1.0)) {
-    throw std::invalid_argument("a reliability must be in [0, 1]; got " + std::to_string(reliability));
-  }
-}
-
-}  // namespace
 
 MassFunction discount(const MassFunction& mass, double reliability) {
   check_reliability(reliability);
@@ -34,6 +25,7 @@ MassFunction contextual_discount(const MassFunction& mass, std::span<const doubl
         "of its " +
         std::to_string(frame.size()) + " elements");
   }
+  constexpr std::size_t kMostFocals = std::size_t{1} << 20;
   FocalSum sum;
   for (const Focal& focal : mass.focals()) sum.add(focal.set, focal.mass);
   for (std::size_t k = 0; k < reliabilities.size(); ++k) {
@@ -43,6 +35,11 @@ MassFunction contextual_discount(const MassFunction& mass, std::span<const doubl
     for (const Focal& term : sum.terms()) {
       next.add(term.set, reliabilities[k] * term.mass);
       next.add(term.set | frame.element(k), (1.0 - reliabilities[k]) * term.mass);
+    }
+    if (next.terms().size() > kMostFocals) {
+      throw std::invalid_argument(
+          "contextual discounting would leave more than 2^20 focal elements: give fewer elements a "
+          "reliability below 1, or summarize the mass function first");
     }
     sum = std::move(next);
   }

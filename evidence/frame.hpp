@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "evidence/proposition.hpp"
@@ -33,6 +35,9 @@ class Frame {
   /// DSmH and PCR2 look at.
   /// \throws std::invalid_argument also where nothing is left
   [[nodiscard]] static Frame hybrid(std::vector<std::string> names, std::span<const std::string> empty);
+  [[nodiscard]] static Frame hybrid(std::vector<std::string> names, std::initializer_list<std::string> empty) {
+    return hybrid(std::move(names), std::span(empty.begin(), empty.size()));
+  }
 
   [[nodiscard]] std::size_t size() const { return diagram_->names.size(); }  ///< number of elements, n
   [[nodiscard]] const std::string& name(std::size_t element) const { return diagram_->names[element]; }
@@ -72,8 +77,8 @@ class Frame {
   /// The same names and the same regions.
   friend bool operator==(const Frame& a, const Frame& b) {
     return a.diagram_ == b.diagram_ ||
-           (a.diagram_->names == b.diagram_->names && a.diagram_->existing == b.diagram_->existing &&
-            a.diagram_->regions == b.diagram_->regions);
+           (a.is_power_set() == b.is_power_set() && a.diagram_->names == b.diagram_->names &&
+            a.diagram_->existing == b.diagram_->existing && a.diagram_->regions == b.diagram_->regions);
   }
 
  private:

@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "evidence/reliability.hpp"
+
 namespace credo::evidence {
 
 /// Masses on the free frame of a grid cell, {empty, occupied}, whose two elements may overlap: `conflict` is the mass
@@ -48,8 +50,10 @@ enum class GridElement { kEmpty, kOccupied, kConflict, kUnknown };
 [[nodiscard]] std::optional<GridMass> without_conflict(const GridMass& mass);
 
 /// Classical discounting of all but the ignorance.
-/// \param reliability  in [0, 1]; 1 keeps the mass, 0 makes it vacuous.
+/// \param reliability  in [0, 1]; 1 keeps the mass, 0 makes it vacuous
+/// \throws std::invalid_argument for another
 [[nodiscard]] constexpr GridMass discount(const GridMass& mass, double reliability) {
+  check_reliability(reliability);
   return {.empty = reliability * mass.empty,
           .occupied = reliability * mass.occupied,
           .conflict = reliability * mass.conflict,

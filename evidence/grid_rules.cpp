@@ -18,9 +18,9 @@ GridMass dual(const GridMass& mass) {
 }
 
 // The products in which some sources name the set and all others the overlap, of each at least one.
-double mixed_with_overlap(std::span<const GridMass> sources, double GridMass::*set) {
+double mixed_with_overlap(const GridSources& sources, double GridMass::*set) {
   double mixed = 0.0, only_set = sources[0].*set, only_overlap = sources[0].conflict;
-  for (const GridMass& source : sources.subspan(1)) {
+  for (const GridMass& source : sources.span().subspan(1)) {
     mixed = mixed * (source.*set + source.conflict) + only_set * source.conflict + only_overlap * source.*set;
     only_set *= source.*set;
     only_overlap *= source.conflict;
@@ -30,14 +30,14 @@ double mixed_with_overlap(std::span<const GridMass> sources, double GridMass::*s
 
 }  // namespace
 
-GridMass disjunctive(std::span<const GridMass> sources) {
+GridMass disjunctive(const GridSources& sources) {
   GridMass result = GridMass::vacuous();
   for (const GridMass& source : sources) result = dsmc(result, dual(source));
   return dual(result);
 }
 
-GridMass average(std::span<const GridMass> sources) {
-  if (sources.empty()) throw std::invalid_argument("an average needs at least one mass; got none");
+GridMass average(const GridSources& sources) {
+  if (sources.size() == 0) throw std::invalid_argument("an average needs at least one mass; got none");
   const double share = 1.0 / static_cast<double>(sources.size());
   GridMass sum{0.0, 0.0, 0.0, 0.0};
   for (const GridMass& source : sources) {
@@ -49,7 +49,7 @@ GridMass average(std::span<const GridMass> sources) {
   return sum;
 }
 
-std::optional<FusedGridMass> dempster(std::span<const GridMass> sources) {
+std::optional<FusedGridMass> dempster(const GridSources& sources) {
   Conjunction kept;
   for (const GridMass& source : sources) {
     const std::optional<GridMass> rest = without_conflict(source);
@@ -59,17 +59,17 @@ std::optional<FusedGridMass> dempster(std::span<const GridMass> sources) {
   const std::optional<FusedBinaryMass> fused = kept.dempster();
   if (!fused) return std::nullopt;
   const BinaryMass& occupied = fused->mass;
-  return FusedGridMass{{occupied.no, occupied.yes, 0.0, occupied.unknown}, dsmc(sources).conflict};
+  return FusedGridMass{{occupied.no, occupied.yes, 0.0, occupied.unknown}, dsmc(sources.span()).conflict};
 }
 
-FusedGridMass conflict_to_ignorance(std::span<const GridMass> sources) {
-  const GridMass open = dsmc(sources);
+FusedGridMass conflict_to_ignorance(const GridSources& sources) {
+  const GridMass open = dsmc(sources.span());
   return {{open.empty, open.occupied, 0.0, open.unknown + open.conflict}, open.conflict};
 }
 
-FusedGridMass dsmh(std::span<const GridMass> sources) {
-  if (sources.empty()) return {};
-  const GridMass open = dsmc(sources);
+FusedGridMass dsmh(const GridSources& sources) {
+  if (sources.size() == 0) return {};
+  const GridMass open = dsmc(sources.span());
   const double empty = mixed_with_overlap(sources, &GridMass::empty);
   const double occupied = mixed_with_overlap(sources, &GridMass::occupied);
   return {{.empty = open.empty + empty,
@@ -79,8 +79,8 @@ FusedGridMass dsmh(std::span<const GridMass> sources) {
           open.conflict};
 }
 
-FusedGridMass pcr2(std::span<const GridMass> sources) {
-  const GridMass open = dsmc(sources);
+FusedGridMass pcr2(const GridSources& sources) {
+  const GridMass open = dsmc(sources.span());
   double empty = 0.0, occupied = 0.0;
   for (const GridMass& source : sources) {
     empty += source.empty;

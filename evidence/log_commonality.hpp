@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <type_traits>
 
+#include "evidence/binary_mass.hpp"
 #include "evidence/grid_mass.hpp"
 
 namespace credo::evidence {
@@ -18,7 +20,7 @@ namespace credo::evidence {
 /// commonalities, so taking evidence in is three additions, merging two cells too, and taking a contribution out again
 /// three subtractions. {0, 0, 0} is the cell that nothing is known about. Masses never underflow: DSmC, TBM, Dempster's
 /// and Bayes' rule are read-outs of the same cell (docs/equations.md).
-template <typename Real>
+template <std::floating_point Real>
 struct BasicLogCommonality {
   Real empty = 0;     ///< ln(m(empty) + m(unknown))
   Real occupied = 0;  ///< ln(m(occupied) + m(unknown))
@@ -42,7 +44,7 @@ struct BasicLogCommonality {
   friend constexpr BasicLogCommonality operator-(BasicLogCommonality a, const BasicLogCommonality& b) { return a -= b; }
   friend constexpr bool operator==(const BasicLogCommonality&, const BasicLogCommonality&) = default;
 
-  template <typename Other>
+  template <std::floating_point Other>
   [[nodiscard]] constexpr BasicLogCommonality<Other> as() const {
     return {static_cast<Other>(empty), static_cast<Other>(occupied), static_cast<Other>(unknown)};
   }
@@ -51,7 +53,7 @@ struct BasicLogCommonality {
 using LogCommonality = BasicLogCommonality<double>;
 using LogCommonalityF = BasicLogCommonality<float>;  ///< sums depend on their order in the last digits
 
-/// The cell of a map: Q11.20 fixed point. Sums are bit-identical in any order, thread and robot.
+/// The cell of a map: Q11.20 fixed point. Sums are bit-identical in any order and on any thread.
 /// One increment is off by at most 2^-21 in each logarithm. The range is [-2048, 0]; one update takes no more of it
 /// than ln 0.01, its reliability being kMaxReliability at most (fixed_increment), so that there is room for 444 of the
 /// strongest. Sums stop at the floor; they stay independent of the order, because contributions are never positive, but
@@ -118,7 +120,7 @@ static_assert(sizeof(FixedLogCommonality) == 12 && std::is_trivially_copyable_v<
   }
   const double sum = mass.empty + mass.occupied + mass.conflict + mass.unknown;
   if (!(mass.empty >= 0.0 && mass.occupied >= 0.0 && mass.conflict >= 0.0 && mass.unknown >= 0.0 &&
-        std::abs(sum - 1.0) <= 1e-9)) {
+        std::abs(sum - 1.0) <= kMassTolerance)) {
     throw std::invalid_argument("not a mass: the four masses must be >= 0 and sum to 1");
   }
   // 0.0 - x, so that nothing is +0 and not -0. A sum that rounding has lifted over 1 stops at 1.
@@ -151,7 +153,9 @@ static_assert(sizeof(FixedLogCommonality) == 12 && std::is_trivially_copyable_v<
 /// The whole cell discounted (decay): ln(1 - r + r q). Does not commute with merging: what is merged must have been
 /// discounted alike.
 /// \param reliability  in [0, 1]; 1 keeps the cell, however much evidence it holds
+/// \throws std::invalid_argument for another
 [[nodiscard]] inline LogCommonality discount(const LogCommonality& cell, double reliability) {
+  check_reliability(reliability);
   if (reliability == 1.0) return cell;
   // A small q by itself: beside 1 it would lose its digits, which count where 1 - r is as small.
   const auto decay = [reliability](double log_q) {

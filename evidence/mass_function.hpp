@@ -48,9 +48,15 @@ class MassFunction {
   [[nodiscard]] static MassFunction simple_support(Frame frame, const Proposition& set, double mass);
   /// One mass for each element. Power sets only. \param probabilities  size n, sum 1
   [[nodiscard]] static MassFunction bayesian(Frame frame, std::span<const double> probabilities);
+  [[nodiscard]] static MassFunction bayesian(Frame frame, std::initializer_list<double> probabilities) {
+    return bayesian(std::move(frame), std::span(probabilities.begin(), probabilities.size()));
+  }
   /// The mass function with nested focal elements whose plausibilities of the elements are these, a possibility
   /// distribution. Power sets only. \param contour  size n, each in [0, 1], the largest 1
   [[nodiscard]] static MassFunction consonant(Frame frame, std::span<const double> contour);
+  [[nodiscard]] static MassFunction consonant(Frame frame, std::initializer_list<double> contour) {
+    return consonant(std::move(frame), std::span(contour.begin(), contour.size()));
+  }
   /// What focals() of a mass function gave, to the last bit: the constructor divides by the sum, which rounds.
   /// \throws std::invalid_argument as the constructor, or unless ordered by proposition, each once, all > 0
   [[nodiscard]] static MassFunction restored(Frame frame, std::span<const Focal> focals);
@@ -59,9 +65,12 @@ class MassFunction {
   [[nodiscard]] static MassFunction with_rest_unknown(
       Frame frame, std::initializer_list<std::pair<std::string_view, double>> focals);
 
-  [[nodiscard]] const Frame& frame() const { return frame_; }
-  /// Ordered by proposition; each once.
-  [[nodiscard]] std::span<const Focal> focals() const { return focals_; }
+  [[nodiscard]] const Frame& frame() const& { return frame_; }
+  [[nodiscard]] Frame frame() && { return std::move(frame_); }
+  /// Ordered by proposition; each once. On a hybrid model two of them may be one in the model, A and A ∪ C where C is
+  /// empty: they keep their forms, which PCR2 looks at.
+  [[nodiscard]] std::span<const Focal> focals() const& { return focals_; }
+  [[nodiscard]] std::vector<Focal> focals() && { return std::move(focals_); }  ///< of what is gone after the statement
   [[nodiscard]] double mass(const Proposition& set) const;  ///< of all forms that are this one in the model
   [[nodiscard]] double mass(std::string_view set) const { return mass(frame_.parse(set)); }
   [[nodiscard]] double conflict() const { return mass(Proposition()); }  ///< m(∅)
@@ -69,7 +78,7 @@ class MassFunction {
   [[nodiscard]] bool is_normal() const { return conflict() == 0.0; }            ///< nothing on ∅
   [[nodiscard]] bool is_dogmatic() const { return mass(frame_.all()) == 0.0; }  ///< nothing on Θ
   [[nodiscard]] bool is_vacuous() const { return mass(frame_.all()) == 1.0; }
-  [[nodiscard]] bool is_categorical() const { return focals_.size() == 1; }
+  [[nodiscard]] bool is_categorical() const { return mass(focals_.front().set) == 1.0; }
   [[nodiscard]] bool is_bayesian() const;   ///< all mass on single Venn regions
   [[nodiscard]] bool is_consonant() const;  ///< the focal elements are nested
 

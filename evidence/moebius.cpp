@@ -105,6 +105,9 @@ std::optional<MassFunction> from_commonality(const Frame& frame, std::vector<dou
   const bool all_is_small = kept == 0 || result.focals_[kept - 1].set != frame.all();
   if (all_is_small && masses.back() > 0.0) result.focals_[kept++] = {frame.all(), masses.back()};
   result.focals_.resize(kept);
+  double sum = 0.0;
+  for (const Focal& focal : result.focals_) sum += focal.mass;
+  for (Focal& focal : result.focals_) focal.mass /= sum;
   return result;
 }
 

@@ -34,7 +34,7 @@ struct ShapeTitle {
 
 /// Belief as any piecewise linear function of one measured quantity, as data: written, read, fitted
 /// (shape_fitting.hpp). YES and NO are linear between the breakpoints and constant outside. The two ramps of Clerentin
-/// et al. that the robot uses are RampBelief; it converts to this form.
+/// et al. are RampBelief; it converts to this form.
 class PiecewiseBelief {
  public:
   /// \param breakpoints  at least one; x ascending, each yes >= 0, no >= 0 and yes + no <= 1 (what exceeds 1 by 1e-9 or

@@ -31,10 +31,15 @@ double beta_fraction(double x, double a, double b) {
   return 1.0 / value;
 }
 
+/// std::lgamma without the sign that it leaves in a global variable.
+double log_gamma(double x) {
+  int sign = 0;
+  return lgamma_r(x, &sign);
+}
+
 /// I_x(a, b), the regularised incomplete beta function. x in (0, 1).
 double incomplete_beta(double x, double a, double b) {
-  const double front =
-      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
+  const double front = std::exp(log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * std::log(x) + b * std::log1p(-x));
   if (x < (a + 1.0) / (a + b + 2.0)) return front / a * beta_fraction(x, a, b);
   return 1.0 - front / b * beta_fraction(1.0 - x, b, a);
 }

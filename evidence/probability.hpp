@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -55,6 +56,10 @@ struct DecisionParams {
 /// \throws std::invalid_argument if there is no candidate
 [[nodiscard]] Decision decide(const MassFunction& mass, std::span<const Proposition> candidates,
                               const DecisionParams& params = {});
+[[nodiscard]] inline Decision decide(const MassFunction& mass, std::initializer_list<Proposition> candidates,
+                                     const DecisionParams& params = {}) {
+  return decide(mass, std::span(candidates.begin(), candidates.size()), params);
+}
 /// Among the elements of the frame.
 [[nodiscard]] Decision decide(const MassFunction& mass, const DecisionParams& params = {});
 

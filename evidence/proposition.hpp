@@ -45,6 +45,7 @@ class Proposition {
     for (const std::uint64_t word : words_) bits += static_cast<std::size_t>(std::popcount(word));
     return bits;
   }
+  /// Precondition: region < kMaxRegions.
   [[nodiscard]] constexpr bool contains(std::size_t region) const {
     return (words_[region / 64] >> (region % 64) & 1) != 0;
   }

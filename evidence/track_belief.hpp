@@ -29,9 +29,8 @@ struct TrackBelief {
 [[nodiscard]] BinaryMass discount_by_own_denial(const BinaryMass& observation);
 
 /// What a match contributes to a track: its YES; the rest is ignorance, never NO.
-[[nodiscard]] constexpr BinaryMass match_support(double match_yes) {
-  return {.yes = match_yes, .no = 0.0, .unknown = 1.0 - match_yes};
-}
+/// \param match_yes  in [0, 1]. \throws std::invalid_argument for another
+[[nodiscard]] inline BinaryMass match_support(double match_yes) { return BinaryMass::from(match_yes, 0.0); }
 
 /// A new track: discount_by_own_denial(observation) and match_support(match_yes).
 /// All three functions return nothing at total conflict, which Dempster's rule alone can give.

@@ -151,6 +151,7 @@ TEST(Frame, SetsThatAreNoPropositionAreRefused) {
 }
 
 TEST(Frame, EqualFramesAreOfEqualNamesAndRegions) {
+  EXPECT_FALSE(Frame::shafer({"A"}) == Frame::free_dsm({"A"}));
   EXPECT_EQ(kAbcFree, Frame::free_dsm({"A", "B", "C"}));
   EXPECT_EQ(kAbcFree, with_constraints({}));
   EXPECT_FALSE(kAbcFree == kAbcShafer);

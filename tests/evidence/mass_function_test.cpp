@@ -146,6 +146,21 @@ TEST(MassFunction, ConvertsToTheBinaryFormAndBack) {
   EXPECT_THROW(static_cast<void>(to_binary(MassFunction(frame, {{"∅", 1.0}}))), std::invalid_argument);
 }
 
+// A list in braces does; what a temporary hands out lives as long as it is looked at.
+TEST(MassFunction, IsMadeInOneLine) {
+  double sum = 0.0;
+  for (const Focal& focal : MassFunction::bayesian(kAbc, {0.25, 0.5, 0.25}).focals()) sum += focal.mass;
+  EXPECT_EQ(sum, 1.0);
+  EXPECT_EQ(MassFunction::consonant(kAbc, {1.0, 0.0, 0.0}).frame(), kAbc);
+  EXPECT_TRUE(Frame::hybrid({"A", "B"}, {"A ∩ B"}).parse("A ∩ B").meets(Proposition::first(3)));
+}
+
+TEST(MassFunction, IsCategoricalInItsModel) {
+  const MassFunction mass(Frame::hybrid({"A", "C"}, {"C"}), {{"A", 0.5}, {"A ∪ C", 0.5}});
+  EXPECT_TRUE(mass.is_categorical());
+  EXPECT_TRUE(mass.is_vacuous());
+}
+
 TEST(MassFunction, PrintsReadably) {
   std::ostringstream text;
   text << MassFunction(kAbc, {{"A ∪ B", 0.25}, {"A", 0.5}, {"Θ", 0.25}});

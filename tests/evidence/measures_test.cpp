@@ -146,6 +146,12 @@ TEST(Discounting, DependsOnTheTruthWhereItIsContextual) {
   EXPECT_NEAR(weaker.mass("B"), 0.9 * (0.3 + 0.5 * 0.1), 1e-15);
   EXPECT_NEAR(weaker.mass("∅"), 0.9 * 0.5 * 0.1, 1e-15);
   EXPECT_THROW(static_cast<void>(contextual_discount(mass, one)), std::invalid_argument);
+  std::vector<std::string> many;
+  for (int i = 0; i < 30; ++i) many.push_back("e" + std::to_string(i));
+  const Frame large = Frame::shafer(many);
+  EXPECT_THROW(static_cast<void>(contextual_discount(MassFunction::categorical(large, large.element(0)),
+                                                     std::vector<double>(30, 0.5))),
+               std::invalid_argument);
   EXPECT_THROW(static_cast<void>(contextual_discount(mass, wrong)), std::invalid_argument);
   const Frame free = Frame::free_dsm({"A", "B"});
   EXPECT_THROW(static_cast<void>(contextual_discount(MassFunction::vacuous(free), reliabilities)),

@@ -28,6 +28,7 @@ struct MassDomain {
   bool some_unknown = false;   ///< every one has mass on Θ
   bool some_conflict = false;  ///< every one has mass on ∅
   bool emptied = false;        ///< also on what the constraints of a hybrid model empty
+  bool tiny = false;           ///< down to 1e-310
 };
 
 inline std::vector<std::string> element_names(std::size_t count) {
@@ -68,10 +69,16 @@ inline const std::vector<Frame>& hybrids() {
   return frames;
 }
 
+inline std::vector<Frame> all_hyper_power_sets() {
+  std::vector<Frame> frames = hyper_power_sets();
+  frames.insert(frames.end(), hybrids().begin(), hybrids().end());
+  return frames;
+}
+
 inline std::vector<Frame> all_frames() {
   std::vector<Frame> frames = power_sets();
-  frames.insert(frames.end(), hyper_power_sets().begin(), hyper_power_sets().end());
-  frames.insert(frames.end(), hybrids().begin(), hybrids().end());
+  const std::vector<Frame> others = all_hyper_power_sets();
+  frames.insert(frames.end(), others.begin(), others.end());
   return frames;
 }
 
@@ -97,7 +104,10 @@ inline MassFunction mass_function(const Frame& frame, const std::vector<Share>& 
     focals.push_back({set, parts});
     sum += parts;
   };
-  for (const auto& [set, parts] : shares) add(sets[static_cast<std::size_t>(set) % sets.size()], parts);
+  constexpr double kTiny[] = {0.0, 1e-310, 1e-200, 1e-80, 1e-12, 1e-3, 1.0, 3.0};
+  for (const auto& [set, parts] : shares) {
+    add(sets[static_cast<std::size_t>(set) % sets.size()], domain.tiny ? kTiny[parts] : parts);
+  }
   if (domain.some_unknown || sum == 0.0) add(frame.all(), 1.0);
   if (domain.some_conflict) add(Proposition(), 1.0);
   for (Focal& focal : focals) focal.mass /= sum;

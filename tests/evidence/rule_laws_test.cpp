@@ -90,7 +90,8 @@ std::string counterexample(const NamedRule& rule, Law law) {
     bool holds = false;
     try {
       holds = law(rule, sources);
-    } catch (const std::invalid_argument&) {  // the vacuous mass function is no source of the bold rule
+    } catch (const std::invalid_argument&) {
+      if (rule.name != "bold") throw;  // of which the vacuous mass function is no source
     }
     RC_ASSERT(holds);
   };
@@ -155,11 +156,12 @@ TEST_P(RuleLaws, HoldAsClaimedAndAsDocumented) {
   EXPECT_EQ(documented(row), row);
 }
 
-// Whatever the sources, constraints that empty what they name included.
+// Whatever the sources: constraints that empty what they name and masses that underflow included.
 TEST_P(RuleLaws, EveryResultIsAMassFunction) {
   const NamedRule& rule = GetParam();
   MassDomain domain = domain_of(rule);
-  if (domain.frames.size() == all_frames().size()) domain = {.frames = hybrids(), .emptied = true};
+  if (domain.frames.size() == all_frames().size()) domain = {.frames = all_hyper_power_sets(), .emptied = true};
+  domain.tiny = true;
   const auto property = [&] {
     const std::optional<Fused> fused = rule.combine(*random_sources(3, domain));
     if (!fused) return;
