@@ -21,7 +21,7 @@
 #include "evidence/mass_function.hpp"
 
 /// The Python module credo.evidence. Docstrings begin with the signature in the form that Python reads back
-/// ("name(arguments)", "--", empty line); credo/evidence.pyi has the types, and a test compares the two.
+/// ("name(arguments)", "--", empty line); the stubs in credo/evidence/ have the types, and a test compares the two.
 namespace credo::python {
 
 namespace py = pybind11;
@@ -93,11 +93,19 @@ template <typename Mass>
   return result;
 }
 
+/// The result of work that touches nothing of Python's, while its other threads run.
+template <typename Work>
+auto without_gil(Work work) {
+  const py::gil_scoped_release released;
+  return work();
+}
+
 void bind_frames(py::module_& module);
 void bind_mass_functions(py::module_& module);
 void bind_readouts(py::class_<evidence::MassFunction>& mass_function, py::module_& module);
 void bind_dense(py::class_<evidence::MassFunction>& mass_function, py::module_& module);
 void bind_binary(py::module_& module);
+void bind_batch(py::module_& module);
 void bind_grid(py::module_& module);
 void bind_log_commonality(py::module_& module);
 void bind_rules(py::module_& module);

@@ -76,6 +76,7 @@ expected; a rule that has no result at total conflict returns None.)";
   module.attr("__version__") = CREDO_VERSION;
   python::bind_frames(module);
   python::bind_binary(module);
+  python::bind_batch(module);
   python::bind_grid(module);
   python::bind_log_commonality(module);
   python::bind_mass_functions(module);

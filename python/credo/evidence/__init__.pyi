@@ -9,6 +9,8 @@ from typing import Literal, Optional, Union, overload
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
+from credo.evidence import batch as batch
+
 _Set = Union[str, Proposition]
 _Masses = Union[Mapping[str, float], Mapping[Proposition, float], MassFunction, Iterable[tuple[_Set, float]]]
 _Sources = Union[MassFunction, Iterable[MassFunction]]
