@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include "evidence/binary_mass.hpp"
 #include "evidence/frame.hpp"
 #include "evidence/mass_function.hpp"
 
@@ -92,6 +94,14 @@ template <typename Mass>
   }
   return result;
 }
+
+/// The masses that a rule has in closed form: of BinaryMass, GridMass, or OpenBinaryMass with BinaryMass among them.
+/// \returns nothing for other sources. \throws py::type_error for a rule that has none, or another type among them
+[[nodiscard]] std::optional<py::object> in_closed_form(std::string_view rule, const py::list& sources);
+[[nodiscard]] bool are_binary(const py::list& sources);  ///< the first is a BinaryMass
+/// \throws py::type_error for another type
+[[nodiscard]] std::vector<evidence::BinaryMass> binary_masses(const py::list& sources);
+[[nodiscard]] evidence::OpenBinaryMass opened(const evidence::BinaryMass& mass);  ///< with no conflict
 
 /// The result of work that touches nothing of Python's, while its other threads run.
 template <typename Work>

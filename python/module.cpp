@@ -37,7 +37,7 @@ py::list listed(const py::args& sources) {
   if (sources.size() != 1) return py::list(sources);
   const py::handle only = sources[0];
   const bool is_source = py::isinstance<evidence::MassFunction>(only) || py::isinstance<evidence::BinaryMass>(only) ||
-                         py::isinstance<evidence::GridMass>(only);
+                         py::isinstance<evidence::OpenBinaryMass>(only) || py::isinstance<evidence::GridMass>(only);
   if (is_source) return py::list(sources);
   if (!py::isinstance<py::iterable>(only)) {
     throw py::type_error("sources are given one by one or as one iterable; got " + std::string(py::repr(only)));
