@@ -93,7 +93,7 @@ using Shape = std::vector<py::ssize_t>;
 Shape shape_of(const py::array& array) { return {array.shape(), array.shape() + array.ndim()}; }
 std::string text_of(const Shape& shape) { return py::str(py::tuple(py::cast(shape))); }
 std::string text_of(const py::dtype& type) { return py::str(static_cast<const py::object&>(type)); }
-std::string text_of(const py::array& array) { return text_of(array.dtype()) + " of " + text_of(shape_of(array)); }
+std::string text_of(const py::array& array) { return text_of(array.dtype()) + " of " + shape_text(array); }
 
 // Of arrays of masses, which have the shape (..., width).
 std::size_t width_of(const py::array& cells) { return static_cast<std::size_t>(cells.shape(cells.ndim() - 1)); }

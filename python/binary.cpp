@@ -146,7 +146,8 @@ void bind_binary_shapes(py::module_& module) {
   py::class_<RampBelief>(module, "RampBelief", R"(Belief as a piecewise linear function of one measured quantity.
 
 The shape of every criterion of Clerentin et al. (figs. 7, 9, 12, 14): full belief, a ramp, none. Called with the
-quantity it gives a BinaryMass; nan, what could not be measured, gives total ignorance.
+quantity it gives a BinaryMass, with an array of it masses as credo.evidence.batch takes them; nan, what could not be
+measured, gives total ignorance.
 
 >>> close = RampBelief(max_yes=0.8, yes_full_until=0.1, yes_zero_from=0.3,
 ...                    max_no=0.6, no_zero_until=0.2, no_full_from=0.5)
@@ -161,7 +162,7 @@ quantity it gives a BinaryMass; nan, what could not be measured, gives total ign
 Breakpoints may run either way: for a quantity that is the better the larger, yes_full_until > yes_zero_from.
 
 ValueError unless they are finite, both ramps run the same way and yes + no <= 1 everywhere.)")
-      .def("__call__", &RampBelief::operator(), py::arg("x"), "__call__(self, x)\n--\n\nThe belief at x.")
+      .def("__call__", evaluated<RampBelief>, py::arg("x"), kEvaluatedDoc)
       .def_readonly("max_yes", &RampBelief::max_yes, "m(YES) where it is full.")
       .def_readonly("yes_full_until", &RampBelief::yes_full_until, "Where YES begins to fall.")
       .def_readonly("yes_zero_from", &RampBelief::yes_zero_from, "Where it is none.")

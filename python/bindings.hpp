@@ -49,6 +49,8 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 [[nodiscard]] std::span<const double> numbers(const Array& values, const char* name);
 [[nodiscard]] Array array(std::span<const double> values);  ///< a new one
 
+[[nodiscard]] std::string shape_text(const py::array& array);  ///< "(400, 400, 3)"
+
 /// For closed forms that do not check. \throws std::invalid_argument unless it is in [0, 1]
 [[nodiscard]] double checked_reliability(double reliability);
 
@@ -110,6 +112,27 @@ auto without_gil(Work work) {
   return work();
 }
 
+inline constexpr const char* kEvaluatedDoc =
+    "__call__(self, x)\n--\n\nThe BinaryMass at a number, or the masses, shape (..., 3), at an array of them.";
+
+/// The BinaryMass of a shape at a number; at an array of them the masses, of shape (..., 3).
+template <typename BeliefShape>
+[[nodiscard]] py::object evaluated(const BeliefShape& shape, const Array& x) {
+  if (x.ndim() == 0) return py::cast(shape(*x.data()));
+  std::vector<py::ssize_t> dimensions(x.shape(), x.shape() + x.ndim());
+  dimensions.push_back(3);
+  Array masses(dimensions);
+  const std::span<const double> from(x.data(), static_cast<std::size_t>(x.size()));
+  double* to = masses.mutable_data();
+  without_gil([&] {
+    for (const double each : from) {
+      const evidence::BinaryMass mass = shape(each);
+      for (const double value : {mass.yes, mass.no, mass.unknown}) *to++ = value;
+    }
+  });
+  return masses;
+}
+
 void bind_frames(py::module_& module);
 void bind_mass_functions(py::module_& module);
 void bind_readouts(py::class_<evidence::MassFunction>& mass_function, py::module_& module);
@@ -121,5 +144,10 @@ void bind_log_commonality(py::module_& module);
 void bind_rules(py::module_& module);
 void bind_refinement(py::module_& module);
 void bind_open_world(py::module_& module);
+void bind_log_evidence(py::module_& module);
+void bind_elicitation(py::module_& module);
+void bind_sensor_matching(py::module_& module);
+void bind_criteria(py::module_& module);
+void bind_four_kinds(py::module_& module);
 
 }  // namespace credo::python

@@ -26,6 +26,8 @@ std::span<const double> numbers(const Array& values, const char* name) {
 
 Array array(std::span<const double> values) { return Array(static_cast<py::ssize_t>(values.size()), values.data()); }
 
+std::string shape_text(const py::array& array) { return py::str(py::tuple(array.attr("shape"))); }
+
 double checked_reliability(double reliability) {
   if (!(reliability >= 0.0 && reliability <= 1.0)) {
     throw std::invalid_argument("a reliability must be in [0, 1]; got " + std::to_string(reliability));
@@ -83,4 +85,9 @@ expected; a rule that has no result at total conflict returns None.)";
   python::bind_rules(module);
   python::bind_refinement(module);
   python::bind_open_world(module);
+  python::bind_log_evidence(module);
+  python::bind_elicitation(module);
+  python::bind_sensor_matching(module);
+  python::bind_criteria(module);
+  python::bind_four_kinds(module);
 }

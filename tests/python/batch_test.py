@@ -79,7 +79,7 @@ class BatchTest(unittest.TestCase):
 
     def test_conflict_is_kept_from_reading_to_reading(self):
         open_masses = batch.conjunctive(batch.conjunctive(self.map, self.reading), self.map)
-        sources = [BinaryMass(*self.map[5, 6, :2]), BinaryMass(*self.reading[5, 6, :2]), BinaryMass(*self.map[5, 6, :2])]
+        sources = [BinaryMass(*cells[5, 6, :2]) for cells in (self.map, self.reading, self.map)]
         np.testing.assert_allclose(open_masses[5, 6], list(evidence.conjunctive(sources)), atol=1e-14)
         np.testing.assert_allclose(open_masses.sum(axis=-1), 1.0)
         both, _ = batch.cautious(self.map, self.reading)
@@ -106,7 +106,8 @@ class BatchTest(unittest.TestCase):
 
     def test_what_is_no_array_of_masses_is_refused(self):
         for wrong, why in ((self.map[..., :2], r"shape \(\.\.\., 3\).* got float64 of \(40, 30, 2\)"),
-                           (np.float64(1.0), r"got float64 of \(\)"), (self.map.astype(int), "float64 or float32; got int64"),
+                           (np.float64(1.0), r"got float64 of \(\)"),
+                           (self.map.astype(int), "float64 or float32; got int64"),
                            (self.map.astype(">f8"), "got >f8"), ("masses", "got <U6"), ([[1.0], [1.0, 2.0]], "numbers")):
             with self.assertRaisesRegex(ValueError, "the map must be an array of .*" + why):
                 batch.pcr2(wrong, self.reading)

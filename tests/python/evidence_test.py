@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the Python API adds to evidence/: types of arguments and results, protocols, arrays, errors."""
 import copy
+import itertools
 import math
 import pickle
 import unittest
@@ -10,8 +11,8 @@ import numpy as np
 
 from credo import evidence
 from credo.evidence import (BinaryMass, CanonicalDecomposition, FixedLogCommonality, Fold, Frame, GridMass,
-                            LogCommonality, MassFunction, OpenBinaryMass, OpenWorldMatcher, ProductFrame, RampBelief,
-                            Refining)
+                            LogCommonality, LogEvidence, MassFunction, OpenBinaryMass, OpenWorldMatcher, ProductFrame,
+                            RampBelief, Refining)
 
 ABC = Frame.shafer(["A", "B", "C"])
 FREE = Frame.free_dsm(["A", "B", "C"])
@@ -165,7 +166,7 @@ class PickleTest(unittest.TestCase):
     def test_values_come_back_equal(self):
         values = [ABC, FREE, HYBRID, FREE["A ∩ B"], M1, evidence.dempster(M1, M2).mass, evidence.conjunctive(M1, M2).mass,
                   MassFunction(HYBRID, {"A ∩ B": 0.3, "A": 0.7}), BinaryMass(0.1, 0.2), GridMass(0.1, 0.2, 0.3),
-                  OpenBinaryMass(0.1, 0.2, 0.3),
+                  OpenBinaryMass(0.1, 0.2, 0.3), LogEvidence(0.1, 0.2),
                   LogCommonality(-0.1, -0.2, -0.3), FixedLogCommonality(-1, -2, -3), RampBelief(max_yes=0.5),
                   *(evidence.pcr6(a, b).mass for a, b in zip(random_masses(20, FREE), random_masses(20, FREE, 2)))]
         for value in values:
@@ -362,6 +363,39 @@ class OpenWorldTest(unittest.TestCase):
         for wrong in ([0.5, 0.5, 0.0], [[0.5, 0.5]], [[0.5, 0.6, 0.0]], [[math.nan, 0.0, 1.0]], [[-0.1, 0.1, 1.0]]):
             with self.assertRaises(ValueError):
                 OpenWorldMatcher(wrong)
+
+
+class RelationTest(unittest.TestCase):
+    def test_is_the_most_plausible_of_all(self):
+        random = np.random.default_rng(1)
+        for _ in range(20):
+            triplets = random.dirichlet(np.ones(3), (3, 4))
+            best = max(self.log_plausibility(triplets, columns)
+                       for columns in itertools.product([None, 0, 1, 2, 3], repeat=3)
+                       if len({c for c in columns if c is not None}) == sum(c is not None for c in columns))
+            relation = evidence.most_plausible_relation(triplets)
+            self.assertAlmostEqual(relation.log_plausibility, best)
+            self.assertAlmostEqual(self.log_plausibility(triplets, relation.column_of_row), best)
+
+    @staticmethod
+    def log_plausibility(triplets, columns):
+        return sum(math.log(1 - (no if columns[row] == column else yes))
+                   for row, pairs in enumerate(triplets) for column, (yes, no, _) in enumerate(pairs))
+
+    def test_rows_may_stay_alone(self):
+        self.assertEqual(evidence.most_plausible_relation([[[0.1, 0.8, 0.1]]]).column_of_row, [None])
+        self.assertEqual(evidence.most_plausible_relation(np.empty((2, 0, 3))).column_of_row, [None, None])
+        self.assertEqual(evidence.most_plausible_relation(np.empty((0, 2, 3))).column_of_row, [])
+
+    def test_total_conflict_is_none(self):
+        self.assertIsNone(evidence.most_plausible_relation([[[1, 0, 0], [1, 0, 0]]]))
+
+    def test_evidence_is_checked(self):
+        for wrong, why in (([[0.5, 0.5, 0.0]], r"\(rows, columns, 3\).* got \(1, 3\)"),
+                           ([[[0.5, 0.5]]], "rows, columns"),
+                           ([[[0.8, 0.1, 0.1], [0.5, 0.6, 0.0]]], "mass 1 of the evidence")):
+            with self.assertRaisesRegex(ValueError, why):
+                evidence.most_plausible_relation(wrong)
 
 
 if __name__ == "__main__":

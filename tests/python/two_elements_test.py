@@ -7,8 +7,8 @@ import unittest
 import numpy as np
 
 from credo import evidence
-from credo.evidence import (BinaryMass, FixedLogCommonality, Frame, GridMass, LogCommonality, MassFunction,
-                            OpenBinaryMass, RampBelief)
+from credo.evidence import (BinaryMass, FixedLogCommonality, Frame, GridMass, LogCommonality, LogEvidence,
+                            MassFunction, OpenBinaryMass, RampBelief)
 
 VACUOUS = MassFunction.vacuous(Frame.shafer(["YES", "NO"]))
 
@@ -50,15 +50,15 @@ class TwoElementsTest(unittest.TestCase):
         self.assertEqual(BinaryMass(0.5, 0.25).discount(0.0), BinaryMass.vacuous())
         for make in (lambda: BinaryMass(0.8, 0.3), lambda: BinaryMass(math.nan), lambda: GridMass(-0.1),
                      lambda: BinaryMass(0.5).discount(math.nan), lambda: GridMass(0.5).discount(2.0),
-                     lambda: RampBelief(max_yes=0.8, max_no=0.8, no_full_from=0.1), lambda: OpenBinaryMass(0.5, 0.4, 0.2),
-                     lambda: OpenBinaryMass(conflict=math.nan)):
+                     lambda: RampBelief(max_yes=0.8, max_no=0.8, no_full_from=0.1),
+                     lambda: OpenBinaryMass(0.5, 0.4, 0.2), lambda: OpenBinaryMass(conflict=math.nan)):
             with self.assertRaises(ValueError):
                 make()
 
     def test_what_the_cautious_rule_gives_it_takes(self):
         a, b, c = BinaryMass(0.6, 0.1), BinaryMass(0.2, 0.5), BinaryMass(0.3, 0.3)
-        np.testing.assert_allclose(list(evidence.cautious(evidence.cautious(a, b), c)), list(evidence.cautious(a, b, c)))
         both = evidence.cautious(a, b)
+        np.testing.assert_allclose(list(evidence.cautious(both, c)), list(evidence.cautious(a, b, c)))
         np.testing.assert_allclose(list(evidence.cautious([both, both])), list(both))
         with self.assertRaisesRegex(TypeError, "pcr6 is not defined for masses that hold conflict"):
             evidence.pcr6(both, a)
@@ -125,6 +125,24 @@ class TwoElementsTest(unittest.TestCase):
             evidence.dubois_prade(cells)
         with self.assertRaises(TypeError):
             evidence.dempster(cells[0], BinaryMass())
+
+    def test_evidence_adds_up_to_dempsters_rule(self):
+        sources = [BinaryMass(0.6, 0.1), BinaryMass(0.2, 0.5), BinaryMass(0.3, 0.3)]
+        a, b, c = map(evidence.log_evidence, sources)
+        fused = evidence.dempster(sources).mass
+        np.testing.assert_allclose(list((a + b + c).normalised_mass()), list(fused), atol=1e-12)
+        np.testing.assert_allclose(list((a + b + c - b - c).normalised_mass()), [0.6, 0.1, 0.3], atol=1e-12)
+        self.assertAlmostEqual((a + b + c).pignistic(), fused.pignistic())
+        self.assertAlmostEqual((a + b).plausibility_probability(), 1 / (1 + math.exp((a + b).no - (a + b).yes)))
+        self.assertEqual(LogEvidence().normalised_mass(), BinaryMass.vacuous())
+        self.assertEqual(LogEvidence(800.0, 800.0).pignistic(), 0.5)
+        cell = evidence.log_commonality(GridMass(empty=0.1, occupied=0.6), reliability=0.9)
+        self.assertAlmostEqual(evidence.log_evidence(cell).yes, cell.evidence_for_occupied())
+        with self.assertRaisesRegex(ValueError, "discount it first"):
+            evidence.log_evidence(BinaryMass(yes=1.0))
+        for wrong in math.nan, math.inf:
+            with self.assertRaisesRegex(ValueError, "finite"):
+                LogEvidence(wrong)
 
     def test_cells_add_and_subtract(self):
         reading = evidence.log_commonality(GridMass(occupied=0.7), reliability=0.9)
