@@ -254,7 +254,11 @@ Also a BinaryMass out of the OpenBinaryMass that conjunctive made, to another.)"
       py::arg("whole"), py::arg("part"));
   bind_folds(module);
   module.def(
-      "pcr5_plus", [](const py::args& sources) { return evidence::pcr5_plus(binary_masses(listed(sources))); },
+      "pcr5_plus",
+      [](const py::args& sources) {
+        const std::vector<BinaryMass> masses = binary_masses(listed(sources));
+        return without_gil([&] { return evidence::pcr5_plus(masses); });
+      },
       R"(pcr5_plus(*sources)
 --
 

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: The Credo Authors
 # SPDX-License-Identifier: Apache-2.0
 """credo.evidence.batch: the same as the functions of BinaryMass, cell by cell, on arrays of any layout."""
-import threading
 import unittest
 
 import numpy as np
@@ -130,22 +129,6 @@ class BatchTest(unittest.TestCase):
         for map, reading, out in ((memory[1:], self.reading, memory[:-1]), (self.map, memory[:-1], memory[1:])):
             with self.assertRaisesRegex(ValueError, "overlaps"):
                 batch.pcr5(map, reading, out=out)
-
-    def test_other_threads_run_meanwhile(self):
-        map, reading = random_masses((600, 600), 3), random_masses((600, 600), 4)
-        expected = batch.pcr5(map, reading)
-        results = [None] * 4
-
-        def work(i):
-            results[i] = batch.pcr5(map, reading)
-
-        threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        for result in results:
-            np.testing.assert_array_equal(result, expected)
 
 
 if __name__ == "__main__":
