@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <optional>
-
 #include <pybind11/operators.h>
+
+#include <optional>
 
 #include "evidence/piecewise_belief.hpp"
 #include "evidence/predictive_belief.hpp"
