@@ -211,6 +211,18 @@ void association_closed(benchmark::State& state) {
 }
 BENCHMARK(association_closed)->Arg(5)->Arg(10)->Arg(15);
 
+void association_pignistic(benchmark::State& state) {
+  const std::vector<BinaryMass> evidence = RandomMasses().next(static_cast<std::size_t>(state.range(0)));
+  OpenWorldMatcher matcher;
+  matcher.reserve(evidence.size());
+  for (auto _ : state) {
+    matcher.combine(evidence);
+    benchmark::DoNotOptimize(matcher.decide_by_pignistic());
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(association_pignistic)->Arg(5)->Arg(10)->Arg(15);
+
 // Candidate i against all others and *: the frame has one element more than there are candidates.
 void association_general(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));

@@ -205,6 +205,7 @@ std::optional<OpenBinaryMass> decombine(const OpenBinaryMass& whole, const Binar
   if (!(part.unknown > 0.0)) throw std::invalid_argument("a dogmatic mass, unknown = 0, cannot be taken out");
   // q(Θ) and q(YES) - q(Θ) of the quotient q_whole / q_part, on one denominator.
   const double unknown = whole.unknown / part.unknown;
+  if (!(unknown <= 1.0 + kMassTolerance)) return std::nullopt;
   const auto rest = [&](double of_whole, double of_part) {
     return (of_whole - unknown * of_part) / (of_part + part.unknown);
   };
@@ -216,7 +217,8 @@ std::optional<OpenBinaryMass> decombine(const OpenBinaryMass& whole, const Binar
     if (!(*mass >= -rounding)) return std::nullopt;
     *mass = std::max(0.0, *mass);
   }
-  return result;
+  const double sum = result.yes + result.no + result.unknown + result.conflict;
+  return OpenBinaryMass{result.yes / sum, result.no / sum, result.unknown / sum, result.conflict / sum};
 }
 
 }  // namespace credo::evidence

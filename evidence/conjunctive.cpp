@@ -40,6 +40,7 @@ void take_in(Running& running, const MassFunction& source) {
   running.conflict += running.share * lost;
   running.share *= kept;
   running.kept.clear();
+  if (!(kept > 0.0)) return;
   for (const Focal& term : next.terms()) running.kept.add(term.set, term.mass / kept);
 }
 

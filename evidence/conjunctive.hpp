@@ -20,7 +20,7 @@ namespace credo::evidence {
 /// Dempster's rule (Shafer 1976; Li X. 2007, eq. (12)): the conjunctive rule without m(∅), divided by the sum of the
 /// rest, not by 1 - m(∅), which has no digits left near total conflict. Exact for any number of opposed sources.
 /// Associative, commutative, not idempotent; the vacuous mass function is neutral.
-/// \returns nothing at total conflict
+/// \returns nothing at total conflict, or where all that one source leaves of the others is below the smallest double
 [[nodiscard]] std::optional<Fused> dempster(const Sources& sources);
 
 /// What is left of a mass function if the truth is known to be in `event`: Dempster's conditioning, m combined with the

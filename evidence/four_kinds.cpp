@@ -18,6 +18,7 @@ double belief_in(const FourKindMass& mass, int kind) { return kind < 3 ? mass.on
 }  // namespace
 
 WhichKind which_kind(double deviation, const WhichKindParams& params) {
+  if (std::isnan(deviation)) return {};
   const double level = falling(std::abs(deviation), params.level_until, params.level_zero_from);
   const double beyond = params.committed * (1.0 - level);
   return {.one_or_other = {deviation < 0.0 ? beyond : 0.0, deviation > 0.0 ? beyond : 0.0, params.committed * level},
@@ -25,6 +26,7 @@ WhichKind which_kind(double deviation, const WhichKindParams& params) {
 }
 
 WhetherRegular whether_regular(double gap, const WhetherRegularParams& params) {
+  if (std::isnan(gap)) return {};
   const double regular = falling(gap, params.regular_until, params.other_from);
   return {.regular = params.committed * regular,
           .other = params.committed * (1.0 - regular),

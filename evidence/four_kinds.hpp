@@ -50,10 +50,12 @@ struct WhetherRegularParams {
 };
 
 /// Kind 0 for a deviation well below zero, kind 1 well above, kind 2 about zero; linear between, in complementary
-/// shares. For junctions: the interior angle on the robot's side minus 180 degrees -> corner, edge, wall.
+/// shares; nan is ignorance. For junctions: the interior angle on the robot's side minus 180 degrees -> corner, edge,
+/// wall.
 [[nodiscard]] WhichKind which_kind(double deviation, const WhichKindParams& params = {});
 
-/// Regular for a small gap, other for a large one. For junctions: the distance between the ends of the two segments.
+/// Regular for a small gap, other for a large one; nan is ignorance. For junctions: the distance between the ends of
+/// the two segments.
 [[nodiscard]] WhetherRegular whether_regular(double gap, const WhetherRegularParams& params = {});
 
 /// The two criteria together; no intersection is empty, so all rules agree.

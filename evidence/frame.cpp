@@ -15,6 +15,8 @@ constexpr std::size_t kMaxOverlapping = 8;  // 2^8 - 1 regions fill a Propositio
 constexpr std::size_t kMaxEnumeratedShafer = 20;
 constexpr std::size_t kMaxEnumeratedOverlapping = 5;  // 7579; six would be 7 828 352
 
+constexpr std::size_t kMaxDepth = 1000;  // of a proposition as text
+
 constexpr std::string_view kUnion = "∪", kIntersection = "∩", kComplement = "¬", kEmptySet = "∅", kAll = "Θ";
 constexpr std::string_view kOperators[] = {kUnion, kIntersection, kComplement, "|", "&", "~", "(", ")"};
 
@@ -78,14 +80,22 @@ class Parser {
   Proposition parse_factor() {
     if (accept(kComplement) || accept("~")) {
       if (!frame_.is_power_set()) fail("a complement is no proposition where elements may overlap");
-      return frame_.all() - parse_factor();
+      return frame_.all() - nested([this] { return parse_factor(); });
     }
     if (accept("(")) {
-      const Proposition inner = parse_union();
+      const Proposition inner = nested([this] { return parse_union(); });
       if (!accept(")")) fail("expected )");
       return inner;
     }
     return parse_name();
+  }
+
+  template <typename Parse>
+  Proposition nested(Parse parse) {  // text of any origin must not exhaust the stack
+    if (++depth_ > kMaxDepth) fail("expected at most " + std::to_string(kMaxDepth) + " levels of ( and ¬");
+    const Proposition inner = parse();
+    --depth_;
+    return inner;
   }
 
   Proposition parse_name() {
@@ -120,6 +130,7 @@ class Parser {
 
   const Frame& frame_;
   std::string_view text_, rest_;
+  std::size_t depth_ = 0;
 };
 
 }  // namespace

@@ -3,11 +3,14 @@
 
 #include "evidence/grid_mass.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "evidence/binary_mass.hpp"
 
@@ -122,13 +125,16 @@ double pignistic(const GridMass& mass, GridElement element, GridModel model) {
 }
 
 double dsmp(const GridMass& mass, GridElement element, GridModel model, double epsilon) {
-  if (!(epsilon >= 0.0)) throw std::invalid_argument("the epsilon of DSmP must be >= 0");
+  if (!(epsilon >= 0.0) || std::isinf(epsilon)) {
+    throw std::invalid_argument("the epsilon of DSmP must be finite and >= 0; got " + std::to_string(epsilon));
+  }
+  const double unit = std::max(1.0, epsilon);  // in which no sum overflows
   const unsigned wanted = regions_of(element, model);
   const std::array<RegionMass, 4> all = focals(divided(mass, model), model);
   const auto weight = [&](unsigned regions) {  // of the single regions inside, plus epsilon each
-    double sum = epsilon * std::popcount(regions);
+    double sum = epsilon / unit * std::popcount(regions);
     for (const RegionMass& focal : all) {
-      if (std::popcount(focal.regions) == 1 && (focal.regions & ~regions) == 0) sum += focal.mass;
+      if (std::popcount(focal.regions) == 1 && (focal.regions & ~regions) == 0) sum += focal.mass / unit;
     }
     return sum;
   };

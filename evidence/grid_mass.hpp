@@ -67,7 +67,7 @@ enum class GridElement { kEmpty, kOccupied, kConflict, kUnknown };
 [[nodiscard]] double pignistic(const GridMass& mass, GridElement element, GridModel model);
 /// DSmP: masses are shared in proportion to what the single regions were given, plus epsilon each; 0/0 takes its limit,
 /// the pignistic share. Under the exclusive model the conflict is divided out first.
-/// \param epsilon  >= 0
+/// \param epsilon  >= 0, finite. \throws std::invalid_argument for another
 /// \throws std::domain_error at total conflict under the exclusive model.
 [[nodiscard]] double dsmp(const GridMass& mass, GridElement element, GridModel model, double epsilon);
 

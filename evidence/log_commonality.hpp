@@ -150,9 +150,14 @@ static_assert(sizeof(FixedLogCommonality) == 12 && std::is_trivially_copyable_v<
 
 /// The whole cell discounted (decay): ln(1 - r + r q). Does not commute with merging: what is merged must have been
 /// discounted alike.
-/// \param reliability  in [0, 1]
+/// \param reliability  in [0, 1]; 1 keeps the cell, however much evidence it holds
 [[nodiscard]] inline LogCommonality discount(const LogCommonality& cell, double reliability) {
-  const auto decay = [reliability](double log_q) { return std::log1p(reliability * std::expm1(log_q)); };
+  if (reliability == 1.0) return cell;
+  // A small q by itself: beside 1 it would lose its digits, which count where 1 - r is as small.
+  const auto decay = [reliability](double log_q) {
+    return log_q > -0.5 ? std::log1p(reliability * std::expm1(log_q))
+                        : std::log((1.0 - reliability) + reliability * std::exp(log_q));
+  };
   return {decay(cell.empty), decay(cell.occupied), decay(cell.unknown)};
 }
 

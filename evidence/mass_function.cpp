@@ -193,28 +193,28 @@ void FocalSum::clear() {
   index_.clear();
 }
 
-MassFunction FocalSum::mass_function(const Frame& frame, double scale) const {
+MassFunction FocalSum::mass_function(const Frame& frame) const {
   FocalSum merged;  // two sets may be one in the model
   for (const Focal& term : terms_) {
     if (term.mass > 0.0) merged.add(frame.existing(term.set), term.mass);
   }
   MassFunction result(frame);
   result.focals_ = std::move(merged.terms_);
-  for (Focal& focal : result.focals_) focal = {frame.canonical(focal.set), focal.mass * scale};
+  for (Focal& focal : result.focals_) focal.set = frame.canonical(focal.set);
   std::ranges::sort(result.focals_, {}, &Focal::set);
   return result;
 }
 
 std::optional<Fused> normalised(const MassFunction& mass) {
-  FocalSum rest;
+  const auto is_kept = [&](const Focal& focal) { return !mass.frame().existing(focal.set).empty(); };
   double kept = 0.0;
-  for (const Focal& focal : mass.focals()) {
-    if (mass.frame().existing(focal.set).empty()) continue;
-    rest.add(focal.set, focal.mass);
-    kept += focal.mass;
-  }
+  for (const Focal& focal : mass.focals()) kept += is_kept(focal) ? focal.mass : 0.0;
   if (!(kept > 0.0)) return std::nullopt;
-  return Fused{rest.mass_function(mass.frame(), 1.0 / kept), mass.conflict()};
+  FocalSum rest;
+  for (const Focal& focal : mass.focals()) {
+    if (is_kept(focal)) rest.add(focal.set, focal.mass / kept);
+  }
+  return Fused{rest.mass_function(mass.frame()), mass.conflict()};
 }
 
 Frame Sources::common_frame() const {

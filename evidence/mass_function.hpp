@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <initializer_list>
 #include <iosfwd>
@@ -88,8 +89,7 @@ class FocalSum {
  public:
   void add(const Proposition& set, double mass);
   /// Added up under what exists of each proposition; kept under its canonical form, ordered.
-  /// \param scale  every mass is multiplied by it
-  [[nodiscard]] MassFunction mass_function(const Frame& frame, double scale = 1.0) const;
+  [[nodiscard]] MassFunction mass_function(const Frame& frame) const;
   [[nodiscard]] std::span<const Focal> terms() const { return terms_; }  ///< in the order of their first addition
   void clear();
 
@@ -112,8 +112,8 @@ struct Fused {
 class Sources {
  public:
   Sources(std::initializer_list<MassFunction> list) : masses_(list.begin(), list.size()) {}
-  Sources(std::span<const MassFunction> masses) : masses_(masses) {}
-  Sources(const std::vector<MassFunction>& masses) : masses_(masses) {}
+  template <std::convertible_to<std::span<const MassFunction>> Range>
+  Sources(const Range& masses) : masses_(masses) {}
 
   [[nodiscard]] std::size_t size() const { return masses_.size(); }
   [[nodiscard]] auto begin() const { return masses_.begin(); }

@@ -4,6 +4,7 @@
 #include "evidence/open_world.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -11,8 +12,20 @@
 namespace credo::evidence {
 namespace {
 
+// There are quadrature rules of 1, 2, 3, ... kConsecutiveRules nodes, beyond that of the powers of two only: they are
+// made once, and a rule of n nodes takes O(n^2).
+constexpr std::size_t kConsecutiveRules = 32;
+
 // Exact for polynomials up to this degree: 2 nodes - 1 >= degree.
-std::size_t nodes_for_degree(std::size_t degree) { return (degree + 2) / 2; }
+std::size_t nodes_for_degree(std::size_t degree) {
+  const std::size_t fewest = (degree + 2) / 2;
+  return fewest <= kConsecutiveRules ? fewest : std::bit_ceil(fewest);
+}
+
+std::size_t nodes_before_rule(std::size_t nodes) {
+  if (nodes <= kConsecutiveRules) return nodes * (nodes - 1) / 2;
+  return kConsecutiveRules * (kConsecutiveRules + 1) / 2 + (nodes - 2 * kConsecutiveRules);
+}
 
 // Value and derivative of the Legendre polynomial of degree n at t, |t| < 1.
 struct Legendre {
@@ -140,7 +153,7 @@ const OpenWorldValues& OpenWorldMatcher::pignistic() {
   pignistic_.none = 0.0;
   factors_.resize(count + 1);
   factors_[count] = 1.0;
-  for (const Node& node : std::span(nodes_).subspan(rule * (rule - 1) / 2, rule)) {
+  for (const Node& node : std::span(nodes_).subspan(nodes_before_rule(rule), rule)) {
     for (std::size_t i = count; i-- > 0;)
       factors_[i] = factors_[i + 1] * (evidence_[i].no + evidence_[i].unknown * node.x);
     pignistic_.none += node.weight * factors_[0];
@@ -171,16 +184,17 @@ OpenWorldDecision OpenWorldMatcher::decide_by_pignistic(double min_margin) {
   const OpenWorldValues& probability = pignistic();
   const Leaders lead = leaders(probability.match, probability.none);
   OpenWorldDecision decision{MatchDecision::kUndecided, -1, lead.best, lead.best - lead.second};
-  if (decision.margin < min_margin) return decision;
+  if (!(decision.margin >= min_margin)) return decision;
   const bool none = lead.first == static_cast<int>(probability.match.size());
   decision.kind = none ? MatchDecision::kNone : MatchDecision::kMatched;
   decision.candidate = none ? -1 : lead.first;
   return decision;
 }
 
-void OpenWorldMatcher::prepare_nodes(std::size_t rules) {
-  for (; rules_ < rules; ++rules_) {
-    const int n = static_cast<int>(rules_) + 1;
+void OpenWorldMatcher::prepare_nodes(std::size_t rule) {
+  while (largest_rule_ < rule) {
+    largest_rule_ = largest_rule_ < kConsecutiveRules ? largest_rule_ + 1 : 2 * largest_rule_;
+    const int n = static_cast<int>(largest_rule_);
     for (int i = 0; i < n; ++i) {
       const double t = legendre_root(n, i);
       const double slope = legendre(n, t).slope;

@@ -76,7 +76,7 @@ class OpenWorldMatcher {
   [[nodiscard]] OpenWorldDecision decide_by_pignistic(double min_margin = kMinPignisticMargin);
 
  private:
-  void prepare_nodes(std::size_t rules);
+  void prepare_nodes(std::size_t rule);
 
   std::vector<BinaryMass> evidence_;
   std::vector<double> suffix_;   // suffix_[i]: product of 1 - a over the candidates from i on
@@ -89,8 +89,8 @@ class OpenWorldMatcher {
     double x;
     double weight;
   };
-  std::vector<Node> nodes_;  // Gauss-Legendre on [0, 1] with 1, 2, 3, ... nodes, one rule after the other
-  std::size_t rules_ = 0;
+  std::vector<Node> nodes_;  // Gauss-Legendre on [0, 1], one rule after the other by their number of nodes
+  std::size_t largest_rule_ = 0;
 };
 
 /// Weight of giving candidate i to a prediction in a global assignment where leaving it unassigned weighs 0: ln of

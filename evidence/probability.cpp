@@ -3,8 +3,10 @@
 
 #include "evidence/probability.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "evidence/measures.hpp"
 
@@ -67,12 +69,15 @@ double dsmp(const MassFunction& mass, const Proposition& set, double epsilon) {
 }
 
 std::vector<double> dsmp_regions(const MassFunction& mass, double epsilon) {
-  if (!(epsilon >= 0.0) || std::isinf(epsilon)) throw std::invalid_argument("the epsilon of DSmP must be >= 0");
-  std::vector<double> weights(mass.frame().region_count(), epsilon);
+  if (!(epsilon >= 0.0) || std::isinf(epsilon)) {
+    throw std::invalid_argument("the epsilon of DSmP must be finite and >= 0; got " + std::to_string(epsilon));
+  }
+  const double unit = std::max(1.0, epsilon);  // in which no sum overflows
+  std::vector<double> weights(mass.frame().region_count(), epsilon / unit);
   for (const Focal& focal : mass.focals()) {
     const Proposition set = mass.frame().existing(focal.set);
     if (set.count() != 1) continue;
-    for (std::size_t r = 0; r < weights.size(); ++r) weights[r] += set.contains(r) ? focal.mass : 0.0;
+    for (std::size_t r = 0; r < weights.size(); ++r) weights[r] += set.contains(r) ? focal.mass / unit : 0.0;
   }
   return shared(mass, weights);
 }

@@ -8,47 +8,73 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "evidence/conjunctive.hpp"
 
 namespace credo::evidence {
 namespace {
 
-// What of the sets that a product names contains none of the others, ordered.
-using Minimal = std::vector<Proposition>;
-
-Minimal with(const Minimal& minimal, const Proposition& set) {
-  if (std::ranges::any_of(minimal, [&](const Proposition& each) { return each.subset_of(set); })) return minimal;
-  Minimal result;
-  std::ranges::copy_if(minimal, std::back_inserter(result),
-                       [&](const Proposition& each) { return !set.subset_of(each); });
-  result.insert(std::ranges::upper_bound(result, set), set);
-  return result;
-}
-
-// A kind of product: which sets it may come from does not matter beyond this.
-struct Involvement {
-  Proposition intersection;
-  Minimal minimal;
-  Proposition composing;
-
-  friend auto operator<=>(const Involvement&, const Involvement&) = default;
-};
-
-std::set<Involvement> involvements(const Sources& sources) {
+// Whether a conflicting product names the set and, besides, only sets of which `beside` holds. Products that meet in
+// the same regions are one, so s sources need no k^s of them.
+template <typename Beside>
+bool in_conflict(const Sources& sources, const Proposition& set, Beside beside) {
   const Frame frame = sources.common_frame();
-  std::set<Involvement> products{{frame.existing(frame.all()), {}, {}}};
+  std::set<std::pair<Proposition, bool>> products{{frame.existing(set), false}};  // where they meet; if they name it
   for (const MassFunction& source : sources) {
-    std::set<Involvement> next;
+    std::set<std::pair<Proposition, bool>> next;
     for (const Focal& focal : source.focals()) {
-      const Proposition regions = frame.existing(focal.set), elements = frame.existing(frame.composing(focal.set));
-      for (const Involvement& product : products) {
-        next.insert({product.intersection & regions, with(product.minimal, focal.set), product.composing | elements});
+      if (!beside(focal.set)) continue;
+      const Proposition regions = frame.existing(focal.set);
+      for (const auto& [intersection, named] : products) {
+        next.insert({intersection & regions, named || focal.set == set});
       }
     }
     products = std::move(next);
   }
-  return products;
+  return products.contains({Proposition(), true});
+}
+
+std::set<Proposition> sets_named(const Sources& sources) {
+  std::set<Proposition> sets;
+  for (const MassFunction& source : sources) {
+    for (const Focal& focal : source.focals()) sets.insert(focal.set);
+  }
+  return sets;
+}
+
+// What exists of the sets that PCR2 takes to be involved.
+std::set<Proposition> involved(const Sources& sources) {
+  const Frame frame = sources.common_frame();
+  std::set<Proposition> result;
+  for (const Proposition& set : sets_named(sources)) {
+    const auto beside = [&](const Proposition& other) { return other == set || !other.subset_of(set); };
+    if (!in_conflict(sources, set, beside)) continue;
+    if (!frame.existing(set).empty()) {
+      result.insert(frame.existing(set));
+      continue;
+    }
+    const Proposition elements = frame.composing(set);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      if (frame.element(i).subset_of(elements)) result.insert(frame.existing(frame.element(i)));
+    }
+  }
+  return result;
+}
+
+// The elements that all conflicting products are composed of; Θ if there are none in one of them.
+Proposition composing_conflicts(const Sources& sources) {
+  const Frame frame = sources.common_frame();
+  const auto elements = [&](const Proposition& set) { return frame.existing(frame.composing(set)); };
+  const auto has_none = [&](const MassFunction& source) {
+    return std::ranges::any_of(source.focals(), [&](const Focal& focal) { return elements(focal.set).empty(); });
+  };
+  if (std::ranges::all_of(sources, has_none)) return frame.all();
+  Proposition result;
+  for (const Proposition& set : sets_named(sources)) {
+    if (in_conflict(sources, set, [](const Proposition&) { return true; })) result |= elements(set);
+  }
+  return result;
 }
 
 // Visits every product of focal elements, one of each source.
@@ -122,6 +148,7 @@ Fused redistribute_each_product(const Sources& sources, Accumulate accumulate) {
           sum.add(intersection, product);
           return;
         }
+        if (product == 0.0) return;  // underflow: the weights may have no sum either
         conflict += product;
         weights.clear();
         for (const Products::Member& member : members) {
@@ -145,27 +172,12 @@ Fused redistribute_each_product(const Sources& sources, Accumulate accumulate) {
 
 Fused pcr2(const Sources& sources) {
   const Frame frame = sources.common_frame();
-  std::set<Proposition> involved;
-  Proposition composing;
-  for (const Involvement& product : involvements(sources)) {
-    if (!product.intersection.empty()) continue;
-    composing |= product.composing.empty() ? frame.existing(frame.all()) : product.composing;
-    for (const Proposition& set : product.minimal) {
-      if (!frame.existing(set).empty()) {
-        involved.insert(frame.existing(set));
-        continue;
-      }
-      const Proposition elements = frame.composing(set);
-      for (std::size_t i = 0; i < frame.size(); ++i) {
-        if (frame.element(i).subset_of(elements)) involved.insert(frame.existing(frame.element(i)));
-      }
-    }
-  }
+  const std::set<Proposition> sharing = involved(sources);
   FocalSum columns;  // c(X): the sum over the sources, for what exists
   for (const MassFunction& source : sources) {
     for (const Focal& focal : source.focals()) {
       const Proposition regions = frame.existing(focal.set);
-      if (involved.contains(regions)) columns.add(regions, focal.mass);
+      if (sharing.contains(regions)) columns.add(regions, focal.mass);
     }
   }
   double total = 0.0;
@@ -180,7 +192,7 @@ Fused pcr2(const Sources& sources) {
   if (total > 0.0) {
     for (const Focal& column : columns.terms()) sum.add(column.set, conflict * (column.mass / total));
   } else if (conflict > 0.0) {
-    sum.add(composing, conflict);
+    sum.add(composing_conflicts(sources), conflict);
   }
   return {sum.mass_function(frame), conflict};
 }

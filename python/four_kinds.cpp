@@ -14,8 +14,9 @@ using evidence::FourKindMass;
 using evidence::WhetherRegular;
 using evidence::WhichKind;
 
-double checked_number(double value, const char* name) {
-  if (std::isnan(value)) throw std::invalid_argument(std::string(name) + " must be a number; got nan");
+double checked_breakpoint(double value, const char* name) {
+  if (!std::isfinite(value))
+    throw std::invalid_argument(std::string(name) + " must be finite; got " + std::to_string(value));
   return value;
 }
 
@@ -27,17 +28,15 @@ double checked_committed(double committed) {
 }
 
 WhichKind which_of(double deviation, double committed, double level_until, double level_zero_from) {
-  return evidence::which_kind(checked_number(deviation, "deviation"),
-                              {.committed = checked_committed(committed),
-                               .level_until = checked_number(level_until, "level_until"),
-                               .level_zero_from = checked_number(level_zero_from, "level_zero_from")});
+  return evidence::which_kind(deviation, {.committed = checked_committed(committed),
+                                          .level_until = checked_breakpoint(level_until, "level_until"),
+                                          .level_zero_from = checked_breakpoint(level_zero_from, "level_zero_from")});
 }
 
 WhetherRegular whether_of(double gap, double committed, double regular_until, double other_from) {
-  return evidence::whether_regular(checked_number(gap, "gap"),
-                                   {.committed = checked_committed(committed),
-                                    .regular_until = checked_number(regular_until, "regular_until"),
-                                    .other_from = checked_number(other_from, "other_from")});
+  return evidence::whether_regular(gap, {.committed = checked_committed(committed),
+                                         .regular_until = checked_breakpoint(regular_until, "regular_until"),
+                                         .other_from = checked_breakpoint(other_from, "other_from")});
 }
 
 evidence::BinaryMass kind_of(const FourKindMass& mass, int kind) {
@@ -69,14 +68,14 @@ void bind_kind_criteria(py::module_& module) {
 --
 
 First criterion, a WhichKind: 0 for a deviation well below zero, 1 well above, 2 about zero, linear between the
-breakpoints of |deviation|. committed: mass that is not ignorance, in [0, 1]. ValueError for nan.)");
+breakpoints of |deviation|. committed: mass that is not ignorance, in [0, 1]. nan is ignorance.)");
   const evidence::WhetherRegularParams whether;
   module.def("whether_regular", whether_of, py::arg("gap"), py::arg("committed") = whether.committed,
              py::arg("regular_until") = whether.regular_until, py::arg("other_from") = whether.other_from,
              R"(whether_regular(gap, committed=0.9, regular_until=0.05, other_from=0.2)
 --
 
-Second criterion, a WhetherRegular: regular for a small gap, other for a large one. ValueError as which_kind.)");
+Second criterion, a WhetherRegular: regular for a small gap, other for a large one; nan is ignorance.)");
 }
 
 }  // namespace

@@ -31,7 +31,6 @@ double of_element(const GridMass& self, const std::string& element, const std::s
 }
 
 double grid_dsmp(const GridMass& self, const std::string& element, const std::string& model, double epsilon) {
-  if (!(epsilon >= 0.0)) throw std::invalid_argument("epsilon must be >= 0; got " + std::to_string(epsilon));
   return evidence::dsmp(self, chosen(element, "element", kGridElements), chosen(model, "model", kGridModels), epsilon);
 }
 
@@ -55,7 +54,7 @@ exists and implies both, or "exclusive", where it is ∅.)")
            R"(dsmp(self, element, model, epsilon)
 --
 
-DSmP, epsilon >= 0 (Dezert and Smarandache 2008). ValueError at total conflict under the exclusive model.)");
+DSmP, epsilon >= 0 and finite (Dezert and Smarandache 2008). ValueError at total conflict under the exclusive model.)");
 }
 
 void bind_grid_changes(py::class_<GridMass>& mass) {

@@ -5,6 +5,9 @@
 
 #include <pybind11/operators.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "python/bindings.hpp"
 
 namespace credo::python {
@@ -16,9 +19,11 @@ using evidence::LogCommonality;
 
 template <typename Cell>
 void check_cell(const Cell& cell) {
-  if (!(cell.empty <= 0 && cell.occupied <= 0 && cell.unknown <= 0)) {
-    throw std::invalid_argument("log-commonalities must be <= 0; got " + std::to_string(cell.empty) + ", " +
-                                std::to_string(cell.occupied) + ", " + std::to_string(cell.unknown));
+  const bool ordered = cell.empty <= 0 && cell.occupied <= 0 && cell.unknown <= std::min(cell.empty, cell.occupied);
+  if (!ordered || std::isinf(static_cast<double>(cell.unknown))) {
+    throw std::invalid_argument("log-commonalities must be finite, <= 0, and unknown the lowest; got " +
+                                std::to_string(cell.empty) + ", " + std::to_string(cell.occupied) + ", " +
+                                std::to_string(cell.unknown));
   }
 }
 
@@ -31,8 +36,9 @@ void bind_cell(py::class_<Cell>& cell, const char* name) {
              return result;
            }),
            py::arg("empty") = Number{}, py::arg("occupied") = Number{}, py::arg("unknown") = Number{},
-           std::is_integral_v<Number> ? "__init__(self, empty=0, occupied=0, unknown=0)\n--\n\nAll <= 0."
-                                      : "__init__(self, empty=0.0, occupied=0.0, unknown=0.0)\n--\n\nAll <= 0.")
+           std::is_integral_v<Number>
+               ? "__init__(self, empty=0, occupied=0, unknown=0)\n--\n\nAll <= 0, unknown the lowest."
+               : "__init__(self, empty=0.0, occupied=0.0, unknown=0.0)\n--\n\nAll finite and <= 0, unknown the lowest.")
       .def_readonly("empty", &Cell::empty, "ln(m(empty) + m(unknown)).")
       .def_readonly("occupied", &Cell::occupied, "ln(m(occupied) + m(unknown)).")
       .def_readonly("unknown", &Cell::unknown, "ln m(unknown).")

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: The Credo Authors
 # SPDX-License-Identifier: Apache-2.0
 """What docs/evidence shows is run: under `<!-- output: NAME -->` stands what the example NAME prints, byte for byte, its C++ is a
-piece of a program that the tests build, and so are the lines of its CMake.
+piece of a program that the tests build, and so are the lines of its CMake; links lead somewhere, and the map of headers has all.
 
 Usage: docs_test.py SOURCE_DIR FOLDER_OF_EXAMPLES
 With CREDO_UPDATE_DOCS=1 in the environment the outputs on the pages are replaced instead.
@@ -42,6 +42,21 @@ def faults_of(page, text, root, programs):
         for line in snippet.splitlines():
             if line not in project:
                 yield f"{page.name}: this CMake is not in tests/package:\n{line}"
+    yield from dead_links(page, text)
+
+
+def anchors(text):
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in re.findall(r"^#+ (.*)$", text, re.M)}
+
+
+def dead_links(page, text):
+    for link in re.findall(r"\]\(([^)]+)\)", text):
+        file, _, anchor = link.partition("#")
+        target = page.parent / file if file else page
+        if "://" in link:
+            continue
+        if not target.exists() or (anchor and anchor not in anchors(target.read_text(encoding="utf-8"))):
+            yield f"{page.name} links to {link}, which is not there"
 
 
 def main():
@@ -57,6 +72,11 @@ def main():
     for example in sorted((root / "examples/evidence").glob("*.cpp")):
         if example.stem not in shown:
             faults.append(f"no page shows what {example.name} prints")
+
+    first_page = (root / "docs/evidence/README.md").read_text(encoding="utf-8")
+    for header in sorted((root / "evidence").glob("*.hpp")):
+        if f"`{header.name}`" not in first_page:
+            faults.append(f"the map of headers in README.md lacks {header.name}")
 
     for fault in faults:
         print(fault)

@@ -11,14 +11,12 @@
 //           q        commonality; a cell of a map keeps ln q(E), ln q(O), ln q(E∪O)
 //
 // Model     Free: E and O may overlap, as in a cell that an obstacle fills in part. Hybrid: E∩O is declared empty,
-// which
-//           leaves Shafer's model and makes the mass on E∩O conflict.
+//           which leaves Shafer's model and makes the mass on E∩O conflict.
 //           m1: E 0.10  O 0.60  E∩O 0.04  E∪O 0.26
 //           m2: E 0.50  O 0.10  E∩O 0.04  E∪O 0.36
 //
 // Shown     What each rule makes of the two. Then three cells with the same probability 0.5, which Bayes' rule could
-// not
-//           tell apart and their conflict does.
+//           not tell apart and their conflict does.
 
 #include <iomanip>
 #include <iostream>

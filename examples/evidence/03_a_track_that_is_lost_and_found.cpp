@@ -12,8 +12,7 @@
 //           k        conflict of this step
 //
 // Model     Frame {YES, NO}. A track starts from m_obs, discounted by its own denial, and YES_m. A match fuses both
-// with
-//           m_track; a miss fuses (0, 0.2, 0.8). The track is dropped where NO exceeds YES.
+//           with m_track; a miss fuses (0, 0.2, 0.8). The track is dropped where NO exceeds YES.
 //
 // Shown     The same life under two rules. Where the conflict becomes ignorance the track is in doubt at once, found
 //           again, and dropped at the fifth miss in a row. Dempster's rule remembers every match that there ever was:

@@ -15,8 +15,8 @@
 //           veto under Dempster's rule, and the cautious rule would refuse it.
 //
 // Shown     The rules on all five: those that look for agreement (Dempster, cautious) follow the liar, as it leaves
-//           nothing open; those that count voices do not. Then who it is: the one that is far from all others. With
-//           its evidence discounted, Dempster's rule is as good as without it.
+//           nothing open; PCR6 and conflict to ignorance leave it just ahead; only the averages do not. Then who it
+//           is: the one that is far from all others. Known and discounted, it no longer harms Dempster's rule.
 
 #include <iomanip>
 #include <iostream>

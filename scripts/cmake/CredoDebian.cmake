@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # Debian packages of what others build upon: cpack --config CPackConfig.cmake, in the build folder.
-# Build the targets credo_evidence and credo_python first; nothing else is packaged.
+# Build the targets credo_evidence and credo_python first (preset evidence); nothing else is packaged.
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)

@@ -327,6 +327,18 @@ TEST_F(Command, OfALogOnlyTheSensorsAskedForAreMapped) {
   }
 }
 
+TEST_F(Command, ALogThatFillsTheRangeOfItsCellsIsMappedWithAWarning) {
+  std::string log;
+  for (int k = 0; k < 1000; ++k) {  // the same wall, seen from two places in turn
+    const std::string x = k % 2 == 0 ? "0" : "0.5", time = std::to_string(1.0 + 0.1 * k);
+    log += "FLASER 4 2 2 2 2 " + x + " 0 0 " + x + " 0 0 " + time + " host " + time + '\n';
+  }
+  write("log", log);
+  const Answer answer = credo("map log --out out");
+  EXPECT_EQ(answer.status, 0) << answer.error;
+  EXPECT_THAT(answer.error, HasSubstr("tiles of the map have a cell that has reached the end of its range"));
+}
+
 TEST_F(Command, AResolutionTooFineForTheSensorsIsRefused) {
   write_small_world();
   write("small.yaml", std::regex_replace(read("small.yaml"), std::regex("opensimple,"), "opensimple, range_max: 8,"));

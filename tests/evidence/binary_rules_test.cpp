@@ -256,6 +256,7 @@ RC_GTEST_PROP(BinaryRuleLaws, DecombinationUndoesTheConjunction, (const Masses& 
 TEST(BinaryRules, DecombinationRefusesWhatWasNotThere) {
   EXPECT_FALSE(decombine({.2, .1, .7, 0.0}, {.5, 0.0, .5}));
   EXPECT_FALSE(decombine(conjunctive({{.5, 0.0, .5}}), {0.0, .1, .9}));
+  EXPECT_FALSE(decombine({1.0, 0.0, 1e-15, 0.0}, {1.0, 0.0, 1e-16}));  // more ignorance than before
   EXPECT_THROW((void)decombine({.2, .1, .7, 0.0}, {.5, .5, 0.0}), std::invalid_argument);
   const OpenBinaryMass whole = conjunctive({{.6, .3, .1}, {.2, .5, .3}});
   EXPECT_LT(

@@ -61,6 +61,12 @@ RC_GTEST_PROP(FourKindsLaws, CombinationAndMeasuresAreWhatEnumerationGives, ()) 
   }
 }
 
+TEST(FourKinds, WhatCouldNotBeMeasuredIsIgnorance) {
+  EXPECT_EQ(which_kind(std::nan("")).unknown, 1.0);
+  EXPECT_EQ(whether_regular(std::nan("")).unknown, 1.0);
+  EXPECT_EQ(combine(which_kind(std::nan("")), whether_regular(std::nan(""))).unknown, 1.0);
+}
+
 TEST(FourKinds, DeviationAndGapDecideTheKind) {
   const auto kind = [](double deviation, double gap) {
     return most_believed(combine(which_kind(deviation), whether_regular(gap)));

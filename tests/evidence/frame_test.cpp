@@ -76,6 +76,8 @@ TEST(Frame, WhatCannotBeReadIsExplained) {
   complaint(kAbcFree, "(A ∪ B", "expected )");
   complaint(kAbcFree, "A) ∪ B", "expected ∪, ∩ or the end at ') ∪ B'");
   complaint(kAbcFree, "¬A", "complement");
+  complaint(kAbcFree, std::string(100'000, '(').c_str(), "at most 1000 levels");
+  complaint(Frame::shafer({"A"}), (std::string(100'000, '~') + "A").c_str(), "at most 1000 levels");
 }
 
 TEST(Frame, NamesThatCannotBeReadAreRefused) {

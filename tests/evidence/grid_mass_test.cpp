@@ -68,6 +68,12 @@ RC_GTEST_PROP(GridMassLaws, TransformsAgreeOnTheDecision, (const GridMass& mass)
   RC_ASSERT(decide([&](GridElement e) { return dsmp(mass, e, GridModel::kExclusive, 1e-3); }) == occupied);
 }
 
+TEST(GridMass, DsmpWithoutAUsableEpsilonIsRefused) {
+  for (const double epsilon : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    EXPECT_THROW((void)dsmp({.3, .1, 0.0, .6}, GridElement::kEmpty, GridModel::kFree, epsilon), std::invalid_argument);
+  }
+}
+
 TEST(GridMass, ConflictBelongsToBothUnderTheFreeModel) {
   const GridMass mass{.3, .1, .2, .4};
   EXPECT_NEAR(belief(mass, GridElement::kOccupied, GridModel::kFree), .3, 1e-15);

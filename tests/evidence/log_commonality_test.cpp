@@ -211,6 +211,14 @@ TEST(LogCommonality, DecayIsDiscounting) {
   EXPECT_EQ(masses(discount(log_commonality(reading, .9), 0.0)), GridMass::vacuous());
 }
 
+TEST(LogCommonality, DecayKeepsTheDigitsOfMuchEvidence) {
+  const LogCommonality cell{-50.0, -36.0, -1986.0};
+  EXPECT_EQ(discount(cell, 1.0), cell);
+  const double almost = 1.0 - 0x1p-53;  // q = e^-36 counts as much as 1 - r
+  EXPECT_NEAR(discount(cell, almost).occupied, std::log(0x1p-53 + std::exp(-36.0)), 1e-12);
+  EXPECT_NEAR(discount(cell, almost).unknown, std::log(0x1p-53), 1e-12);
+}
+
 TEST(LogCommonality, FloatHoldsTheSameCell) {
   LogCommonality cell;
   LogCommonalityF narrow;

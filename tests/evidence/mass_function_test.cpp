@@ -123,6 +123,12 @@ TEST(MassFunction, NormalisingDividesByTheSumOfTheRest) {
   EXPECT_FALSE(normalised(MassFunction::categorical(kAbc, {})).has_value());
 }
 
+TEST(MassFunction, NormalisingKeepsARestBelowTheSmallestNormalNumber) {
+  const std::optional<Fused> rest = normalised(MassFunction(Frame::shafer({"A", "B"}), {{"A", 1e-310}, {"∅", 1.0}}));
+  ASSERT_TRUE(rest);
+  EXPECT_EQ(rest->mass.mass("A"), 1.0);
+}
+
 TEST(MassFunction, ConstraintsMakeMassEmptyButRememberItsForm) {
   const std::string empty[] = {"A ∩ B"};
   const Frame frame = Frame::hybrid({"A", "B"}, empty);

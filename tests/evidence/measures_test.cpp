@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "evidence/discounting.hpp"
+#include "evidence/grid_mass.hpp"
 #include "evidence/probability.hpp"
 #include "evidence/refinement.hpp"
 
@@ -51,6 +52,19 @@ TEST(Measures, DsmpFollowsWhatTheElementsWereGiven) {
   EXPECT_NEAR(dsmp(mass, kAb.parse("A"), 1e9), pignistic(mass, kAb.parse("A")), 1e-9);
   EXPECT_THROW(static_cast<void>(dsmp(mass, kAb.parse("A"), -0.1)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(dsmp(mass, kAb.parse("A"), std::nan(""))), std::invalid_argument);
+}
+
+TEST(Measures, ALargeEpsilonOfDsmpSharesEqually) {
+  const Frame frame = Frame::shafer({"A", "B", "C"});
+  const MassFunction mass(frame, {{"A", .2}, {"Θ", .8}});
+  for (const double epsilon : {1e20, 1e308}) {
+    EXPECT_NEAR(dsmp(mass, frame.parse("A | B"), epsilon), pignistic(mass, frame.parse("A | B")), 1e-12);
+    EXPECT_NEAR(dsmp(GridMass::from(.2, .3), GridElement::kEmpty, GridModel::kFree, epsilon),
+                pignistic(GridMass::from(.2, .3), GridElement::kEmpty, GridModel::kFree), 1e-12);
+  }
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW((void)dsmp(mass, frame.all(), infinity), std::invalid_argument);
+  EXPECT_THROW((void)dsmp(GridMass::vacuous(), GridElement::kEmpty, GridModel::kFree, infinity), std::invalid_argument);
 }
 
 TEST(Measures, ConflictIsDividedOutOfProbabilities) {

@@ -124,16 +124,19 @@ RC_GTEST_PROP(OpenWorldLaws, AssignmentWeightIsTheLogRatioOfPlausibilities, (con
   }
 }
 
-// 60 candidates: against the coefficients of the polynomials, integrated term by term in extended precision.
-TEST(OpenWorld, PignisticOfManyCandidatesIsExact) {
+// Against the coefficients of the polynomials, integrated term by term in extended precision.
+class ManyCandidates : public ::testing::TestWithParam<int> {};
+
+TEST_P(ManyCandidates, HaveExactPignisticProbabilities) {
+  const int count = GetParam();
   Candidates candidates;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < count; ++i) {
     const double match = .013 * (i % 7), no = .1 + .011 * (i % 13);
     candidates.push_back(BinaryMass::from(match, no));
   }
   const auto integral = [&](int left_out, int extra_degree) {
     std::vector<long double> coefficients{1.0L};
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < count; ++i) {
       if (i == left_out) continue;
       coefficients.push_back(0.0L);
       for (std::size_t k = coefficients.size(); k-- > 0;) {
@@ -152,11 +155,13 @@ TEST(OpenWorld, PignisticOfManyCandidatesIsExact) {
   const double kept = 1.0 - matcher.open().conflict;
   const OpenWorldValues& betp = matcher.pignistic();
   EXPECT_NEAR(betp.none * kept / static_cast<double>(integral(-1, 0)), 1.0, 1e-12);
-  for (int j = 0; j < 60; ++j) {
+  for (int j = 0; j < count; ++j) {
     const double shared = candidates[j].unknown * static_cast<double>(integral(j, 1));
     EXPECT_NEAR(betp.match[j] * kept / (matcher.open().match[j] + shared), 1.0, 1e-12) << j;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(OpenWorld, ManyCandidates, ::testing::Values(60, 64, 130, 200));
 
 TEST(OpenWorld, WithoutCandidatesThereIsNone) {
   OpenWorldMatcher matcher;
@@ -221,6 +226,7 @@ TEST(OpenWorld, TwoEqualCandidatesAreAmbiguous) {
   EXPECT_EQ(matcher.decide_by_pignistic().kind, MatchDecision::kUndecided);
   EXPECT_EQ(matcher.decide_by_pignistic().candidate, -1);
   EXPECT_EQ(matcher.decide_by_pignistic(0.0).kind, MatchDecision::kMatched);
+  EXPECT_EQ(matcher.decide_by_pignistic(std::numeric_limits<double>::quiet_NaN()).kind, MatchDecision::kUndecided);
   EXPECT_EQ(matcher.decide_by_mass().candidate, 0);  // .24, .24, ignorance .16
 }
 

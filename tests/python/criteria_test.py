@@ -92,13 +92,14 @@ class FourKindsTest(unittest.TestCase):
             beliefs = [mass.belief_in_kind(k) for k in range(4)]
             self.assertEqual(max(range(4), key=lambda k: beliefs[k].belief()), kind)
         self.assertEqual(evidence.which_kind(90, committed=0.5).one_or_other, [0, 0.5, 0])
+        self.assertEqual((evidence.which_kind(math.nan).unknown, evidence.whether_regular(math.nan).unknown), (1, 1))
         self.assertEqual(evidence.whether_regular(2, regular_until=3, other_from=4).other, 0)
 
     def test_errors_say_what_was_found(self):
         mass = FourKindMass(evidence.which_kind(0), evidence.whether_regular(0))
         for use, why in ((lambda: mass.belief_in_kind(4), "got 4"), (lambda: mass.belief_in_kind(-1), "got -1"),
-                         (lambda: evidence.which_kind(math.nan), "deviation"),
-                         (lambda: evidence.whether_regular(math.nan), "gap"),
+                         (lambda: evidence.which_kind(0, level_until=math.nan), "level_until"),
+                         (lambda: evidence.whether_regular(0, other_from=math.inf), "other_from"),
                          (lambda: evidence.which_kind(0, committed=1.5), "committed"),
                          (lambda: evidence.whether_regular(0, committed=math.nan), "committed")):
             with self.assertRaisesRegex(ValueError, why):

@@ -104,6 +104,8 @@ class TwoElementsTest(unittest.TestCase):
             both.belief("occupied", "open")
         with self.assertRaisesRegex(ValueError, "epsilon"):
             both.dsmp("occupied", "free", -1.0)
+        with self.assertRaisesRegex(ValueError, "epsilon"):
+            both.dsmp("occupied", "free", math.inf)
 
     def test_rules_take_grid_masses_under_the_exclusive_model(self):
         frame = Frame.shafer(["empty", "occupied"])
@@ -152,7 +154,9 @@ class TwoElementsTest(unittest.TestCase):
         self.assertEqual(fixed - reading.quantise() + reading.quantise(), fixed)
         self.assertAlmostEqual(fixed.value().occupied, cell.occupied, places=6)
         self.assertFalse(fixed.saturated)
-        for make in (lambda: LogCommonality(0.1), lambda: LogCommonality(math.nan), lambda: FixedLogCommonality(1),
+        for make in (lambda: LogCommonality(0.1), lambda: LogCommonality(math.nan),
+                     lambda: LogCommonality(-math.inf, -math.inf, -math.inf), lambda: LogCommonality(-1.0, -1.0, 0.0),
+                     lambda: FixedLogCommonality(1),
                      lambda: cell.discount(-0.1), lambda: evidence.log_commonality(GridMass(), 1.0)):
             with self.assertRaises(ValueError):
                 make()
