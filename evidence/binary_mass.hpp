@@ -42,6 +42,8 @@ struct OpenBinaryMass {
   double no = 0.0;
   double unknown = 1.0;
   double conflict = 0.0;
+
+  friend constexpr bool operator==(const OpenBinaryMass&, const OpenBinaryMass&) = default;
 };
 
 /// A mass function and the conflict that was met (and moved or divided out) on the way to it.

@@ -3,10 +3,12 @@
 
 #include <pybind11/operators.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "evidence/belief_shapes.hpp"
 #include "evidence/binary_mass.hpp"
+#include "evidence/binary_rules.hpp"
 #include "evidence/mass_function.hpp"
 #include "python/bindings.hpp"
 
@@ -59,6 +61,16 @@ ValueError unless yes >= 0, no >= 0 and yes + no <= 1 (tolerance 1e-9: what exce
 
 Committed masses times the reliability in [0, 1], the rest is ignorance (Shafer 1976).)")
       .def(
+          "contextual_discount",
+          [](const BinaryMass& self, double if_yes, double if_no) {
+            return evidence::contextual_discount(self, checked_reliability(if_yes), checked_reliability(if_no));
+          },
+          py::arg("if_yes"), py::arg("if_no"), R"(contextual_discount(self, if_yes, if_no)
+--
+
+Discounting by the reliability in [0, 1] of the source where the truth is YES, and where it is NO (Mercier, Quost and
+Denoeux 2008). What it says for YES is wrong only where the truth is NO, so that if_no counts there.)")
+      .def(
           "to_mass_function",
           [](const BinaryMass& self, const evidence::Frame& frame) { return evidence::from_binary(frame, self); },
           py::arg("frame"), R"(to_mass_function(self, frame)
@@ -77,10 +89,24 @@ The inverse of to_mass_function. ValueError unless the mass is normal and its fr
       .def(pickled(&BinaryMass::yes, &BinaryMass::no, &BinaryMass::unknown));
 }
 
+OpenBinaryMass open_mass(double yes, double no, double conflict) {
+  if (!(yes >= 0.0 && no >= 0.0 && conflict >= 0.0 && yes + no + conflict <= 1.0 + evidence::kMassTolerance)) {
+    throw std::invalid_argument("not a mass: yes = " + std::to_string(yes) + ", no = " + std::to_string(no) +
+                                ", conflict = " + std::to_string(conflict) + "; all must be >= 0 and sum to at most 1");
+  }
+  const double sum = std::max(1.0, yes + no + conflict);
+  return {yes / sum, no / sum, std::max(0.0, 1.0 - (yes + no + conflict)), conflict / sum};
+}
+
 void bind_binary_results(py::module_& module) {
   py::class_<OpenBinaryMass>(module, "OpenBinaryMass", R"(What the conjunctive rule leaves of binary masses (TBM).
 
-Unpacks: `yes, no, unknown, conflict = conjunctive(a, b)`.)")
+Unpacks: `yes, no, unknown, conflict = conjunctive(a, b)`. The cautious and the bold rule take it too.)")
+      .def(py::init(&open_mass), py::arg("yes") = 0.0, py::arg("no") = 0.0, py::arg("conflict") = 0.0,
+           R"(__init__(self, yes=0.0, no=0.0, conflict=0.0)
+--
+
+From these masses; the rest is ignorance. ValueError unless all are >= 0 and sum to at most 1.)")
       .def_readonly("yes", &OpenBinaryMass::yes, "m(YES).")
       .def_readonly("no", &OpenBinaryMass::no, "m(NO).")
       .def_readonly("unknown", &OpenBinaryMass::unknown, "The mass of the whole frame.")
@@ -89,12 +115,16 @@ Unpacks: `yes, no, unknown, conflict = conjunctive(a, b)`.)")
            [](const OpenBinaryMass& self) {
              return py::iter(py::make_tuple(self.yes, self.no, self.unknown, self.conflict));
            })
+      .def(py::self == py::self)
+      .def("__hash__",
+           [](const OpenBinaryMass& self) {
+             return py::hash(py::make_tuple(self.yes, self.no, self.unknown, self.conflict));
+           })
+      .def(pickled(&OpenBinaryMass::yes, &OpenBinaryMass::no, &OpenBinaryMass::unknown, &OpenBinaryMass::conflict))
       .def("__str__", binary_text<OpenBinaryMass>)
       .def("__repr__", [](const OpenBinaryMass& self) {
-        return record("OpenBinaryMass", {{"yes", py::cast(self.yes)},
-                                         {"no", py::cast(self.no)},
-                                         {"unknown", py::cast(self.unknown)},
-                                         {"conflict", py::cast(self.conflict)}});
+        return record("OpenBinaryMass",
+                      {{"yes", py::cast(self.yes)}, {"no", py::cast(self.no)}, {"conflict", py::cast(self.conflict)}});
       });
   py::class_<FusedBinaryMass>(module, "FusedBinaryMass", "As Fused, of binary masses; unpacks into mass and conflict.")
       .def_readonly("mass", &FusedBinaryMass::mass, "What the sources say together.")
@@ -116,7 +146,8 @@ void bind_binary_shapes(py::module_& module) {
   py::class_<RampBelief>(module, "RampBelief", R"(Belief as a piecewise linear function of one measured quantity.
 
 The shape of every criterion of Clerentin et al. (figs. 7, 9, 12, 14): full belief, a ramp, none. Called with the
-quantity it gives a BinaryMass; nan, what could not be measured, gives total ignorance.
+quantity it gives a BinaryMass, with an array of it masses as credo.evidence.batch takes them; nan, what could not be
+measured, gives total ignorance.
 
 >>> close = RampBelief(max_yes=0.8, yes_full_until=0.1, yes_zero_from=0.3,
 ...                    max_no=0.6, no_zero_until=0.2, no_full_from=0.5)
@@ -131,7 +162,7 @@ quantity it gives a BinaryMass; nan, what could not be measured, gives total ign
 Breakpoints may run either way: for a quantity that is the better the larger, yes_full_until > yes_zero_from.
 
 ValueError unless they are finite, both ramps run the same way and yes + no <= 1 everywhere.)")
-      .def("__call__", &RampBelief::operator(), py::arg("x"), "__call__(self, x)\n--\n\nThe belief at x.")
+      .def("__call__", evaluated<RampBelief>, py::arg("x"), kEvaluatedDoc)
       .def_readonly("max_yes", &RampBelief::max_yes, "m(YES) where it is full.")
       .def_readonly("yes_full_until", &RampBelief::yes_full_until, "Where YES begins to fall.")
       .def_readonly("yes_zero_from", &RampBelief::yes_zero_from, "Where it is none.")

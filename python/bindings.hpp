@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,11 +18,12 @@
 #include <variant>
 #include <vector>
 
+#include "evidence/binary_mass.hpp"
 #include "evidence/frame.hpp"
 #include "evidence/mass_function.hpp"
 
 /// The Python module credo.evidence. Docstrings begin with the signature in the form that Python reads back
-/// ("name(arguments)", "--", empty line); credo/evidence.pyi has the types, and a test compares the two.
+/// ("name(arguments)", "--", empty line); the stubs in credo/evidence/ have the types, and a test compares the two.
 namespace credo::python {
 
 namespace py = pybind11;
@@ -46,6 +48,8 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// The numbers of a vector. \throws std::invalid_argument, naming it, for another number of dimensions than one
 [[nodiscard]] std::span<const double> numbers(const Array& values, const char* name);
 [[nodiscard]] Array array(std::span<const double> values);  ///< a new one
+
+[[nodiscard]] std::string shape_text(const py::array& array);  ///< "(400, 400, 3)"
 
 /// For closed forms that do not check. \throws std::invalid_argument unless it is in [0, 1]
 [[nodiscard]] double checked_reliability(double reliability);
@@ -93,15 +97,57 @@ template <typename Mass>
   return result;
 }
 
+/// The masses that a rule has in closed form: of BinaryMass, GridMass, or OpenBinaryMass with BinaryMass among them.
+/// \returns nothing for other sources. \throws py::type_error for a rule that has none, or another type among them
+[[nodiscard]] std::optional<py::object> in_closed_form(std::string_view rule, const py::list& sources);
+[[nodiscard]] bool are_binary(const py::list& sources);  ///< the first is a BinaryMass
+/// \throws py::type_error for another type
+[[nodiscard]] std::vector<evidence::BinaryMass> binary_masses(const py::list& sources);
+[[nodiscard]] evidence::OpenBinaryMass opened(const evidence::BinaryMass& mass);  ///< with no conflict
+
+/// The result of work that touches nothing of Python's, while its other threads run.
+template <typename Work>
+auto without_gil(Work work) {
+  const py::gil_scoped_release released;
+  return work();
+}
+
+inline constexpr const char* kEvaluatedDoc =
+    "__call__(self, x)\n--\n\nThe BinaryMass at a number, or the masses, shape (..., 3), at an array of them.";
+
+/// The BinaryMass of a shape at a number; at an array of them the masses, of shape (..., 3).
+template <typename BeliefShape>
+[[nodiscard]] py::object evaluated(const BeliefShape& shape, const Array& x) {
+  if (x.ndim() == 0) return py::cast(shape(*x.data()));
+  std::vector<py::ssize_t> dimensions(x.shape(), x.shape() + x.ndim());
+  dimensions.push_back(3);
+  Array masses(dimensions);
+  const std::span<const double> from(x.data(), static_cast<std::size_t>(x.size()));
+  double* to = masses.mutable_data();
+  without_gil([&] {
+    for (const double each : from) {
+      const evidence::BinaryMass mass = shape(each);
+      for (const double value : {mass.yes, mass.no, mass.unknown}) *to++ = value;
+    }
+  });
+  return masses;
+}
+
 void bind_frames(py::module_& module);
 void bind_mass_functions(py::module_& module);
 void bind_readouts(py::class_<evidence::MassFunction>& mass_function, py::module_& module);
 void bind_dense(py::class_<evidence::MassFunction>& mass_function, py::module_& module);
 void bind_binary(py::module_& module);
+void bind_batch(py::module_& module);
 void bind_grid(py::module_& module);
 void bind_log_commonality(py::module_& module);
 void bind_rules(py::module_& module);
 void bind_refinement(py::module_& module);
 void bind_open_world(py::module_& module);
+void bind_log_evidence(py::module_& module);
+void bind_elicitation(py::module_& module);
+void bind_sensor_matching(py::module_& module);
+void bind_criteria(py::module_& module);
+void bind_four_kinds(py::module_& module);
 
 }  // namespace credo::python

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "evidence/grid_mass.hpp"
+#include "evidence/grid_rules.hpp"
 
 #include <pybind11/operators.h>
 
@@ -12,6 +12,7 @@
 namespace credo::python {
 namespace {
 
+using evidence::FusedGridMass;
 using evidence::GridElement;
 using evidence::GridMass;
 using evidence::GridModel;
@@ -68,12 +69,26 @@ All but the ignorance times the reliability in [0, 1].)")
            "without_conflict(self)\n--\n\nThe conflict divided out (Dempster). None at total conflict.");
 }
 
+void bind_fused_grid(py::module_& module) {
+  py::class_<FusedGridMass>(module, "FusedGridMass", "As Fused, of grid masses; unpacks into mass and conflict.")
+      .def_readonly("mass", &FusedGridMass::mass, "What the sources say together, without conflict.")
+      .def_readonly("conflict", &FusedGridMass::conflict, "In [0, 1].")
+      .def("__iter__", [](const FusedGridMass& self) { return py::iter(py::make_tuple(self.mass, self.conflict)); })
+      .def("__repr__", [](const FusedGridMass& self) {
+        return record("FusedGridMass", {{"mass", py::cast(self.mass)}, {"conflict", py::cast(self.conflict)}});
+      });
+}
+
 }  // namespace
 
 void bind_grid(py::module_& module) {
   py::class_<GridMass> mass(module, "GridMass", R"(Masses on a grid cell, {empty, occupied}, whose elements may overlap.
 
-`conflict` is the mass of empty ∩ occupied, under Shafer's model of ∅; `unknown` that of empty ∪ occupied.)");
+`conflict` is the mass of empty ∩ occupied, under Shafer's model of ∅; `unknown` that of empty ∪ occupied. dsmc is the
+rule of the free model; the other rules take grid masses under the exclusive one.
+
+>>> dempster(GridMass(empty=0.5), GridMass(occupied=0.5, conflict=0.25)).mass.unknown
+0.25)");
   mass.def(py::init(&GridMass::from), py::arg("empty") = 0.0, py::arg("occupied") = 0.0, py::arg("conflict") = 0.0,
            R"(__init__(self, empty=0.0, occupied=0.0, conflict=0.0)
 --
@@ -108,6 +123,7 @@ From the committed masses; the rest is ignorance. ValueError unless all are >= 0
                                         {"conflict", py::cast(self.conflict)}});
            })
       .def(pickled(&GridMass::empty, &GridMass::occupied, &GridMass::conflict, &GridMass::unknown));
+  bind_fused_grid(module);
   module.def(
       "dsmc",
       [](const py::args& sources) {

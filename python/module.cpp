@@ -26,6 +26,8 @@ std::span<const double> numbers(const Array& values, const char* name) {
 
 Array array(std::span<const double> values) { return Array(static_cast<py::ssize_t>(values.size()), values.data()); }
 
+std::string shape_text(const py::array& array) { return py::str(py::tuple(array.attr("shape"))); }
+
 double checked_reliability(double reliability) {
   if (!(reliability >= 0.0 && reliability <= 1.0)) {
     throw std::invalid_argument("a reliability must be in [0, 1]; got " + std::to_string(reliability));
@@ -37,7 +39,7 @@ py::list listed(const py::args& sources) {
   if (sources.size() != 1) return py::list(sources);
   const py::handle only = sources[0];
   const bool is_source = py::isinstance<evidence::MassFunction>(only) || py::isinstance<evidence::BinaryMass>(only) ||
-                         py::isinstance<evidence::GridMass>(only);
+                         py::isinstance<evidence::OpenBinaryMass>(only) || py::isinstance<evidence::GridMass>(only);
   if (is_source) return py::list(sources);
   if (!py::isinstance<py::iterable>(only)) {
     throw py::type_error("sources are given one by one or as one iterable; got " + std::string(py::repr(only)));
@@ -76,10 +78,16 @@ expected; a rule that has no result at total conflict returns None.)";
   module.attr("__version__") = CREDO_VERSION;
   python::bind_frames(module);
   python::bind_binary(module);
+  python::bind_batch(module);
   python::bind_grid(module);
   python::bind_log_commonality(module);
   python::bind_mass_functions(module);
   python::bind_rules(module);
   python::bind_refinement(module);
   python::bind_open_world(module);
+  python::bind_log_evidence(module);
+  python::bind_elicitation(module);
+  python::bind_sensor_matching(module);
+  python::bind_criteria(module);
+  python::bind_four_kinds(module);
 }

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "evidence/plausible_relation.hpp"
 #include "python/bindings.hpp"
 
 namespace credo::python {
@@ -16,21 +17,24 @@ using evidence::OpenWorldDecision;
 using evidence::OpenWorldMasses;
 using evidence::OpenWorldMatcher;
 using evidence::OpenWorldValues;
+using evidence::Relation;
 
-// Rows of m(P_i), m(not P_i), m(Θ). \throws std::invalid_argument, naming the row
-std::vector<BinaryMass> triplets_from(const Array& evidence) {
-  const bool none = evidence.size() == 0;
-  if (!none && (evidence.ndim() != 2 || evidence.shape(1) != 3)) {
-    throw std::invalid_argument("evidence must have the shape (p, 3): m(P_i), m(not P_i), m(Θ) of each candidate");
+// The masses of an array (..., 3) of so many dimensions: m(YES), m(NO), m(Θ) of each, one after the other.
+// \throws std::invalid_argument, naming the one that is no mass, and for another shape
+std::vector<BinaryMass> triplets_from(const Array& evidence, py::ssize_t dimensions, const char* shape) {
+  if (evidence.ndim() != dimensions || evidence.shape(dimensions - 1) != 3) {
+    throw std::invalid_argument(std::string("evidence must have the shape ") + shape +
+                                ": what speaks for, against and for neither; got " + shape_text(evidence));
   }
   std::vector<BinaryMass> masses;
-  for (py::ssize_t i = 0; !none && i < evidence.shape(0); ++i) {
-    const BinaryMass mass{evidence.at(i, 0), evidence.at(i, 1), evidence.at(i, 2)};
+  const double* const values = evidence.data();
+  for (py::ssize_t i = 0; i < evidence.size(); i += 3) {
+    const BinaryMass mass{values[i], values[i + 1], values[i + 2]};
     const double sum = mass.yes + mass.no + mass.unknown;
     if (!(mass.yes >= 0.0 && mass.no >= 0.0 && mass.unknown >= 0.0 &&
           std::abs(sum - 1.0) <= evidence::kMassTolerance)) {
       throw std::invalid_argument(
-          "row " + std::to_string(i) + " of the evidence is no mass: " + std::to_string(mass.yes) + ", " +
+          "mass " + std::to_string(i / 3) + " of the evidence is none: " + std::to_string(mass.yes) + ", " +
           std::to_string(mass.no) + ", " + std::to_string(mass.unknown) + " must be >= 0 and sum to 1");
     }
     masses.push_back(mass);
@@ -38,9 +42,28 @@ std::vector<BinaryMass> triplets_from(const Array& evidence) {
   return masses;
 }
 
+// About one prediction; [] is no candidate.
+std::vector<BinaryMass> candidates_from(const Array& evidence) {
+  if (evidence.ndim() == 1 && evidence.size() == 0) return {};
+  return triplets_from(evidence, 2, "(p, 3)");
+}
+
+std::optional<Relation> relation_of(const Array& evidence) {
+  const std::vector<BinaryMass> masses = triplets_from(evidence, 3, "(rows, columns, 3)");
+  const auto rows = static_cast<std::size_t>(evidence.shape(0)), columns = static_cast<std::size_t>(evidence.shape(1));
+  return without_gil([&] { return evidence::most_plausible_relation(masses, rows, columns); });
+}
+
+py::list columns_of(const Relation& relation) {
+  py::list columns;
+  for (const int column : relation.column_of_row)
+    columns.append(column < 0 ? py::object(py::none()) : py::cast(column));
+  return columns;
+}
+
 OpenWorldMatcher matcher_of(const Array& evidence) {
   OpenWorldMatcher matcher;
-  matcher.combine(triplets_from(evidence));
+  matcher.combine(candidates_from(evidence));
   return matcher;
 }
 
@@ -66,7 +89,7 @@ std::optional<int> candidate_of(const OpenWorldDecision& decision) {
 
 Array assignment_weights(const Array& evidence) {
   std::vector<double> weights;
-  for (const BinaryMass& mass : triplets_from(evidence)) weights.push_back(evidence::assignment_weight(mass));
+  for (const BinaryMass& mass : candidates_from(evidence)) weights.push_back(evidence::assignment_weight(mass));
   return array(weights);
 }
 
@@ -107,10 +130,34 @@ Disjunctions are lumped into `unknown`. All sum to 1; once normalised, without `
       });
 }
 
+void bind_relation(py::module_& module) {
+  py::class_<Relation>(module, "Relation", "Who is whom: at most one column for each row, one row for each column.")
+      .def_property_readonly("column_of_row", columns_of, "The column of each row; None for a row alone.")
+      .def_readonly("log_plausibility", &Relation::log_plausibility, R"(ln of its plausibility, before normalisation.
+
+Π (1 - m(no)) of the pairs that are in it, Π (1 - m(yes)) of those that are not.)")
+      .def("__repr__", [](const Relation& self) {
+        return record("Relation",
+                      {{"column_of_row", columns_of(self)}, {"log_plausibility", py::cast(self.log_plausibility)}});
+      });
+  module.def("most_plausible_relation", relation_of, py::arg("evidence"), R"(most_plausible_relation(evidence)
+--
+
+The Relation of largest plausibility (Denoeux, El Zoghby, Cherfaoui and Jouglet 2014): the assignment of the largest
+sum of assignment_weight, in O(rows² (rows + columns)). Of equally plausible ones always the same.
+
+evidence: shape (rows, columns, 3), for each pair m(the same), m(not the same), m(Θ), >= 0 with sum 1. None at total
+conflict, where every relation contradicts a pair that is certain. ValueError for another shape, or what is no mass.
+
+>>> most_plausible_relation([[[0.8, 0.1, 0.1], [0.9, 0.0, 0.1]], [[0.1, 0.8, 0.1], [0.7, 0.1, 0.2]]]).column_of_row
+[0, 1])");
+}
+
 }  // namespace
 
 void bind_open_world(py::module_& module) {
   bind_matching_results(module);
+  bind_relation(module);
   using M = OpenWorldMatcher;
   py::class_<M>(module, "OpenWorldMatcher", R"(One prediction against p candidates, or none of them (*).
 

@@ -189,6 +189,7 @@ void bind_readouts(py::class_<MassFunction>& mass_function, py::module_& module)
 
 m(∅) of the two under the conjunctive rule, in [0, 1]. Not a distance: it may be > 0 between equal ones.)");
   module.def("jousselme_distance", evidence::jousselme_distance, py::arg("a"), py::arg("b"),
+             py::call_guard<py::gil_scoped_release>(),
              R"(jousselme_distance(a, b)
 --
 

@@ -3,7 +3,6 @@
 
 #include "evidence/rules.hpp"
 
-#include <algorithm>
 #include <optional>
 
 #include "evidence/averaging.hpp"
@@ -15,60 +14,22 @@ namespace credo::python {
 namespace {
 
 using evidence::BinaryMass;
-using evidence::BinarySources;
 using evidence::Fused;
 using evidence::FusedBinaryMass;
 using evidence::Laws;
 using evidence::MassFunction;
 using evidence::NamedRule;
-namespace rule = evidence::rule;
+using evidence::OpenBinaryMass;
 
 std::vector<MassFunction> mass_functions(const py::list& sources) {
   return sources_of<MassFunction>(sources, "MassFunction");
 }
 
-py::object without_conflict(const BinaryMass& mass) { return py::cast(FusedBinaryMass{mass, 0.0}); }
-
-// A rule in the closed form of {YES, NO}.
-struct ClosedForm {
-  std::string_view rule;
-  py::object (*combine)(const BinarySources& sources);
-};
-using Binary = const BinarySources&;
-constexpr std::array<ClosedForm, 12> kClosedForms{{
-    {rule::Conjunctive::kName, [](Binary s) { return py::cast(evidence::conjunctive(s.span())); }},
-    {rule::Dempster::kName, [](Binary s) { return py::cast(evidence::dempster(s.span())); }},
-    {rule::Disjunctive::kName, [](Binary s) { return without_conflict(evidence::disjunctive(s)); }},
-    {rule::ConflictToIgnorance::kName, [](Binary s) { return py::cast(evidence::conflict_to_ignorance(s.span())); }},
-    {rule::DuboisPrade::kName, [](Binary s) { return py::cast(evidence::conflict_to_ignorance(s.span())); }},
-    {rule::Dsmh::kName, [](Binary s) { return py::cast(evidence::conflict_to_ignorance(s.span())); }},
-    {rule::Pcr2::kName, [](Binary s) { return py::cast(evidence::pcr2(s)); }},
-    {rule::Pcr5::kName, [](Binary s) { return py::cast(evidence::pcr5(s)); }},
-    {rule::Pcr6::kName, [](Binary s) { return py::cast(evidence::pcr6(s)); }},
-    {rule::Cautious::kName, [](Binary s) { return py::cast(evidence::cautious(s)); }},
-    {rule::Average::kName, [](Binary s) { return without_conflict(evidence::average(s)); }},
-    {rule::Murphy::kName, [](Binary s) { return py::cast(evidence::murphy(s)); }},
-}};
-
-std::vector<BinaryMass> binary_masses(const py::list& sources) {
-  return sources_of<BinaryMass>(sources, "BinaryMass, as the first is");
-}
-
-bool are_binary(const py::list& sources) { return !sources.empty() && py::isinstance<BinaryMass>(sources[0]); }
-
-py::object in_closed_form(const NamedRule& rule, const py::list& sources) {
-  const std::vector<BinaryMass> masses = binary_masses(sources);
-  const auto* const found = std::ranges::find(kClosedForms, rule.name, &ClosedForm::rule);
-  if (found == kClosedForms.end()) {
-    throw py::type_error(std::string(rule.name) + " is not defined for binary masses: they have no mass on ∅");
-  }
-  return found->combine(masses);
-}
-
 py::object combined(const NamedRule& rule, const py::args& sources) {
   const py::list all = listed(sources);
-  if (are_binary(all)) return in_closed_form(rule, all);
-  return py::cast(rule.combine(mass_functions(all)));
+  if (std::optional<py::object> fused = in_closed_form(rule.name, all)) return *std::move(fused);
+  const std::vector<MassFunction> masses = mass_functions(all);
+  return py::cast(without_gil([&] { return rule.combine(masses); }));
 }
 
 py::object averaged(const py::args& sources, const py::object& weights) {
@@ -78,7 +39,7 @@ py::object averaged(const py::args& sources, const py::object& weights) {
   const std::span<const double> given = numbers(values, "weights");
   if (given.empty()) throw std::invalid_argument("weights must be one for each source, or None; got none");
   const py::list all = listed(sources);
-  if (are_binary(all)) return without_conflict(evidence::average(binary_masses(all), given));
+  if (are_binary(all)) return py::cast(FusedBinaryMass{evidence::average(binary_masses(all), given), 0.0});
   MassFunction mass = evidence::average(mass_functions(all), given);
   const double conflict = mass.conflict();
   return py::cast(Fused{std::move(mass), conflict});
@@ -98,7 +59,8 @@ std::optional<Fused> folded_in_order(const std::string& rule, const py::args& so
   using namespace evidence::rule;
   const Combine fold = fold_of<Conjunctive, Dempster, Disjunctive, ConflictToIgnorance, DuboisPrade, Dsmh, Pcr2, Pcr5,
                                Pcr6, Cautious, Bold, Average, Murphy>(evidence::rule_named(rule).name);
-  return fold(mass_functions(listed(sources)));
+  const std::vector<MassFunction> masses = mass_functions(listed(sources));
+  return without_gil([&] { return fold(masses); });
 }
 
 /// evidence::Fold of a rule that is chosen while running.
@@ -138,7 +100,8 @@ function is neutral.
 
 As all rules: sources are MassFunctions of one frame, given one by one or as one iterable; the result is a Fused.
 ValueError for no source, or different frames. BinaryMasses are combined in closed form, to a FusedBinaryMass; here, and
-in cautious, whose conflict stays, to an OpenBinaryMass.)"},
+in cautious, whose conflict stays, to an OpenBinaryMass. So are GridMasses, under the exclusive model, to a
+FusedGridMass; here, in disjunctive and in average to a GridMass.)"},
     {"dempster", R"(dempster(*sources)
 --
 
@@ -175,7 +138,7 @@ the sums of their masses. Not associative; the vacuous mass function is neutral.
 PCR5 (Smarandache and Dezert 2005): each conflicting product to the sets in it, in proportion to the product of the
 masses given to each. Not associative; from three sources on the vacuous mass function is not neutral.
 
-ValueError also for more than 1e8 products of focal elements.)"},
+ValueError also for more than 1e8 products of focal elements, and unless GridMasses are two.)"},
     {"pcr6", R"(pcr6(*sources)
 --
 
@@ -187,13 +150,14 @@ votes. The same for two sources.)"},
 Cautious rule (Denoeux 2008): the smallest weight that a source gives to each simple mass function. For reliable
 sources that may share evidence. Associative, idempotent; conflict stays as m(∅). Power sets only.
 
-ValueError for a dogmatic source (m(Θ) = 0): discount it first.)"},
+ValueError for a dogmatic source (m(Θ) = 0): discount it first. Takes OpenBinaryMasses too, as it gives them.)"},
     {"bold", R"(bold(*sources)
 --
 
 Bold rule (Denoeux 2008): the disjunctive counterpart of the cautious one. Associative, idempotent. Power sets only.
 
-ValueError for a source without mass on ∅, TypeError for BinaryMasses, which have none.)"},
+ValueError for a source without mass on ∅. Takes OpenBinaryMasses too, to give one; TypeError for BinaryMasses, which
+have no mass there.)"},
     {"murphy", R"(murphy(*sources)
 --
 
@@ -278,14 +242,23 @@ Mean of the mass functions, set by set. Idempotent, not associative; the vacuous
 weights: shape (s,), >= 0, not all 0; None for equal ones. ValueError for others.)");
   module.def(
       "decombine", [](const MassFunction& whole, const MassFunction& part) { return evidence::decombine(whole, part); },
-      py::arg("whole"), py::arg("part"), R"(decombine(whole, part)
+      py::arg("whole"), py::arg("part"), py::call_guard<py::gil_scoped_release>(), R"(decombine(whole, part)
 --
 
 Takes `part` out of what the conjunctive rule made of it and others: q_whole / q_part (Smets 1995). Power sets of up to
-20 elements. None where the quotient is no mass function. ValueError for a dogmatic part (m(Θ) = 0).)");
+20 elements. None where the quotient is no mass function. ValueError for a dogmatic part (m(Θ) = 0).
+
+Also a BinaryMass out of the OpenBinaryMass that conjunctive made, to another.)");
+  module.def(
+      "decombine", [](const OpenBinaryMass& whole, const BinaryMass& part) { return evidence::decombine(whole, part); },
+      py::arg("whole"), py::arg("part"));
   bind_folds(module);
   module.def(
-      "pcr5_plus", [](const py::args& sources) { return evidence::pcr5_plus(binary_masses(listed(sources))); },
+      "pcr5_plus",
+      [](const py::args& sources) {
+        const std::vector<BinaryMass> masses = binary_masses(listed(sources));
+        return without_gil([&] { return evidence::pcr5_plus(masses); });
+      },
       R"(pcr5_plus(*sources)
 --
 

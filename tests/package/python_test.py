@@ -40,7 +40,7 @@ class InstalledTest(unittest.TestCase):
         packages, said = used_from(prefix)
         self.assertIn(str(packages), said)
         self.assertIn("{A: 0.5, Θ: 0.5}", said)
-        for text in "__init__.py", "evidence.pyi", "py.typed":
+        for text in "__init__.py", "py.typed", "evidence/__init__.pyi", "evidence/batch.pyi":
             self.assertTrue((packages / "credo" / text).exists(), text)
 
     def test_the_component_works_where_it_is_installed(self):

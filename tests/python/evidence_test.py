@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the Python API adds to evidence/: types of arguments and results, protocols, arrays, errors."""
 import copy
+import itertools
 import math
 import pickle
 import unittest
@@ -10,7 +11,8 @@ import numpy as np
 
 from credo import evidence
 from credo.evidence import (BinaryMass, CanonicalDecomposition, FixedLogCommonality, Fold, Frame, GridMass,
-                            LogCommonality, MassFunction, OpenWorldMatcher, ProductFrame, RampBelief, Refining)
+                            LogCommonality, LogEvidence, MassFunction, OpenBinaryMass, OpenWorldMatcher, ProductFrame,
+                            RampBelief, Refining)
 
 ABC = Frame.shafer(["A", "B", "C"])
 FREE = Frame.free_dsm(["A", "B", "C"])
@@ -164,6 +166,7 @@ class PickleTest(unittest.TestCase):
     def test_values_come_back_equal(self):
         values = [ABC, FREE, HYBRID, FREE["A ∩ B"], M1, evidence.dempster(M1, M2).mass, evidence.conjunctive(M1, M2).mass,
                   MassFunction(HYBRID, {"A ∩ B": 0.3, "A": 0.7}), BinaryMass(0.1, 0.2), GridMass(0.1, 0.2, 0.3),
+                  OpenBinaryMass(0.1, 0.2, 0.3), LogEvidence(0.1, 0.2),
                   LogCommonality(-0.1, -0.2, -0.3), FixedLogCommonality(-1, -2, -3), RampBelief(max_yes=0.5),
                   *(evidence.pcr6(a, b).mass for a, b in zip(random_masses(20, FREE), random_masses(20, FREE, 2)))]
         for value in values:
@@ -329,79 +332,6 @@ class RefinementTest(unittest.TestCase):
                 use(2)
 
 
-class TwoElementsTest(unittest.TestCase):
-    def test_closed_forms_agree_with_the_general_ones(self):
-        frame = Frame.shafer(["YES", "NO"])
-        sources = [BinaryMass(0.6, 0.1), BinaryMass(0.2, 0.5), BinaryMass(0.3, 0.3)]
-        general = [m.to_mass_function(frame) for m in sources]
-        for name in evidence.rules().keys() - {"bold"}:
-            closed, fused = (getattr(evidence, name)(s) for s in (sources, general))
-            masses = [fused.mass[s] for s in ("YES", "NO", "Θ")]
-            if name in ("conjunctive", "cautious"):
-                np.testing.assert_allclose(list(closed), [*masses, fused.conflict], atol=1e-12, err_msg=name)
-            else:
-                np.testing.assert_allclose([*closed.mass, closed.conflict], [*masses, fused.conflict], atol=1e-12,
-                                           err_msg=name)
-        np.testing.assert_allclose(list(evidence.average(sources, weights=[1, 2, 1]).mass), [0.325, 0.35, 0.325])
-        self.assertIsNone(evidence.dempster(BinaryMass(yes=1.0), BinaryMass(no=1.0)))
-
-    def test_ignorance_is_neutral_in_the_repaired_rules(self):
-        sources = [BinaryMass(0.6, 0.1), BinaryMass(0.2, 0.5)]
-        for rule in evidence.pcr5_plus, evidence.pcr6_plus:
-            np.testing.assert_allclose(list(rule(*sources, BinaryMass()).mass), list(evidence.pcr5(sources).mass),
-                                       atol=1e-12)
-
-    def test_what_binary_masses_cannot_is_refused(self):
-        with self.assertRaisesRegex(TypeError, "bold is not defined"):
-            evidence.bold(BinaryMass(0.5), BinaryMass(0.5))
-        with self.assertRaises(TypeError):
-            evidence.pcr5_plus(M1, M2)
-        with self.assertRaisesRegex(ValueError, "unknown = 0"):
-            evidence.cautious(BinaryMass(yes=1.0))
-
-    def test_masses_are_checked_and_read_out(self):
-        yes, no, unknown = BinaryMass(0.5, 0.25)
-        self.assertEqual((yes, no, unknown), (0.5, 0.25, 0.25))
-        self.assertEqual((BinaryMass(0.5, 0.25).belief(), BinaryMass(0.5, 0.25).plausibility()), (0.5, 0.75))
-        self.assertEqual(BinaryMass(0.5, 0.25).discount(0.0), BinaryMass.vacuous())
-        for make in (lambda: BinaryMass(0.8, 0.3), lambda: BinaryMass(math.nan), lambda: GridMass(-0.1),
-                     lambda: BinaryMass(0.5).discount(math.nan), lambda: GridMass(0.5).discount(2.0),
-                     lambda: RampBelief(max_yes=0.8, max_no=0.8, no_full_from=0.1)):
-            with self.assertRaises(ValueError):
-                make()
-
-    def test_ramps_give_ignorance_for_what_was_not_measured(self):
-        self.assertEqual(RampBelief(max_yes=0.8)(math.nan), BinaryMass.vacuous())
-
-    def test_grid_masses_are_dsmc(self):
-        both = evidence.dsmc(GridMass(empty=0.5), GridMass(occupied=0.5))
-        self.assertEqual(list(both), [0.25, 0.25, 0.25, 0.25])
-        self.assertEqual(evidence.dsmc([]), GridMass.vacuous())
-        self.assertEqual((both.belief("occupied", "free"), both.belief("occupied", "exclusive")), (0.5, 0.25))
-        self.assertIsNone(GridMass(conflict=1.0).without_conflict())
-        with self.assertRaisesRegex(ValueError, "'free', 'exclusive'; got 'open'"):
-            both.belief("occupied", "open")
-        with self.assertRaisesRegex(ValueError, "epsilon"):
-            both.dsmp("occupied", "free", -1.0)
-        with self.assertRaisesRegex(ValueError, "epsilon"):
-            both.dsmp("occupied", "free", math.inf)
-
-    def test_cells_add_and_subtract(self):
-        reading = evidence.log_commonality(GridMass(occupied=0.7), reliability=0.9)
-        cell = LogCommonality() + reading + reading
-        np.testing.assert_allclose(list(cell.masses()), list(evidence.dsmc(*[GridMass(occupied=0.63)] * 2)))
-        fixed = cell.quantise()
-        self.assertEqual(fixed - reading.quantise() + reading.quantise(), fixed)
-        self.assertAlmostEqual(fixed.value().occupied, cell.occupied, places=6)
-        self.assertFalse(fixed.saturated)
-        for make in (lambda: LogCommonality(0.1), lambda: LogCommonality(math.nan),
-                     lambda: LogCommonality(-math.inf, -math.inf, -math.inf), lambda: LogCommonality(-1.0, -1.0, 0.0),
-                     lambda: FixedLogCommonality(1),
-                     lambda: cell.discount(-0.1), lambda: evidence.log_commonality(GridMass(), 1.0)):
-            with self.assertRaises(ValueError):
-                make()
-
-
 class OpenWorldTest(unittest.TestCase):
     triplets = np.array([[0.8, 0.1, 0.1], [0.1, 0.7, 0.2], [0.0, 0.5, 0.5]])
 
@@ -433,6 +363,39 @@ class OpenWorldTest(unittest.TestCase):
         for wrong in ([0.5, 0.5, 0.0], [[0.5, 0.5]], [[0.5, 0.6, 0.0]], [[math.nan, 0.0, 1.0]], [[-0.1, 0.1, 1.0]]):
             with self.assertRaises(ValueError):
                 OpenWorldMatcher(wrong)
+
+
+class RelationTest(unittest.TestCase):
+    def test_is_the_most_plausible_of_all(self):
+        random = np.random.default_rng(1)
+        for _ in range(20):
+            triplets = random.dirichlet(np.ones(3), (3, 4))
+            best = max(self.log_plausibility(triplets, columns)
+                       for columns in itertools.product([None, 0, 1, 2, 3], repeat=3)
+                       if len({c for c in columns if c is not None}) == sum(c is not None for c in columns))
+            relation = evidence.most_plausible_relation(triplets)
+            self.assertAlmostEqual(relation.log_plausibility, best)
+            self.assertAlmostEqual(self.log_plausibility(triplets, relation.column_of_row), best)
+
+    @staticmethod
+    def log_plausibility(triplets, columns):
+        return sum(math.log(1 - (no if columns[row] == column else yes))
+                   for row, pairs in enumerate(triplets) for column, (yes, no, _) in enumerate(pairs))
+
+    def test_rows_may_stay_alone(self):
+        self.assertEqual(evidence.most_plausible_relation([[[0.1, 0.8, 0.1]]]).column_of_row, [None])
+        self.assertEqual(evidence.most_plausible_relation(np.empty((2, 0, 3))).column_of_row, [None, None])
+        self.assertEqual(evidence.most_plausible_relation(np.empty((0, 2, 3))).column_of_row, [])
+
+    def test_total_conflict_is_none(self):
+        self.assertIsNone(evidence.most_plausible_relation([[[1, 0, 0], [1, 0, 0]]]))
+
+    def test_evidence_is_checked(self):
+        for wrong, why in (([[0.5, 0.5, 0.0]], r"\(rows, columns, 3\).* got \(1, 3\)"),
+                           ([[[0.5, 0.5]]], "rows, columns"),
+                           ([[[0.8, 0.1, 0.1], [0.5, 0.6, 0.0]]], "mass 1 of the evidence")):
+            with self.assertRaisesRegex(ValueError, why):
+                evidence.most_plausible_relation(wrong)
 
 
 if __name__ == "__main__":
