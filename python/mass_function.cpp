@@ -3,8 +3,6 @@
 
 #include "evidence/mass_function.hpp"
 
-#include <pybind11/operators.h>
-
 #include <sstream>
 
 #include "python/bindings.hpp"
@@ -153,19 +151,6 @@ void bind_mass_properties(py::class_<MassFunction>& mass_function) {
       .def_property_readonly("is_consonant", &MassFunction::is_consonant, "The focal elements are nested.");
 }
 
-void bind_fused(py::module_& module) {
-  py::class_<Fused>(module, "Fused",
-                    R"(A mass function and the conflict that was met (and moved or divided out) on the way.
-
-Unpacks: `mass, conflict = dempster(a, b)`.)")
-      .def_readonly("mass", &Fused::mass, "What the sources say together.")
-      .def_readonly("conflict", &Fused::conflict, "In [0, 1].")
-      .def("__iter__", [](const Fused& self) { return py::iter(py::make_tuple(self.mass, self.conflict)); })
-      .def("__repr__", [](const Fused& self) {
-        return record("Fused", {{"mass", py::cast(self.mass)}, {"conflict", py::cast(self.conflict)}});
-      });
-}
-
 }  // namespace
 
 void bind_mass_functions(py::module_& module) {
@@ -182,7 +167,10 @@ a mapping from its focal elements; `m[set]` is 0 for what is none.
   bind_mass_making(mass_function);
   bind_mass_mapping(mass_function);
   bind_mass_properties(mass_function);
-  bind_fused(module);
+  bind_fused<Fused>(module, "Fused",
+                    R"(A mass function and the conflict that was met (and moved or divided out) on the way.
+
+Unpacks: `mass, conflict = dempster(a, b)`.)");
   bind_readouts(mass_function, module);
   bind_dense(mass_function, module);
   mass_function.def(py::self == py::self)

@@ -25,6 +25,8 @@ struct Decision {
   bool rejected;
   double value;
   double margin;
+
+  friend bool operator==(const Decision&, const Decision&) = default;
 };
 
 Decision decide(const MassFunction& mass, const std::optional<std::vector<SetLike>>& candidates,
@@ -175,12 +177,20 @@ void bind_readouts(py::class_<MassFunction>& mass_function, py::module_& module)
       .def_readonly("rejected", &Decision::rejected, "Its value or lead is too small.")
       .def_readonly("value", &Decision::value, "What the criterion gives it.")
       .def_readonly("margin", &Decision::margin, "Lead over the second; the value itself where there is none.")
-      .def("__repr__", [](const Decision& self) {
-        return record("Decision", {{"choice", py::cast(self.choice)},
-                                   {"rejected", py::cast(self.rejected)},
-                                   {"value", py::cast(self.value)},
-                                   {"margin", py::cast(self.margin)}});
-      });
+      .def(py::self == py::self)
+      .def("__repr__",
+           [](const Decision& self) {
+             return record("Decision", {{"choice", py::cast(self.choice)},
+                                        {"rejected", py::cast(self.rejected)},
+                                        {"value", py::cast(self.value)},
+                                        {"margin", py::cast(self.margin)}});
+           })
+      .def(py::pickle(
+          [](const Decision& self) { return py::make_tuple(self.choice, self.rejected, self.value, self.margin); },
+          [](const py::tuple& state) {
+            return Decision{state[0].cast<NamedProposition>(), state[1].cast<bool>(), state[2].cast<double>(),
+                            state[3].cast<double>()};
+          }));
   bind_measures(mass_function);
   bind_probabilities(mass_function);
   bind_changes(mass_function);
