@@ -159,6 +159,7 @@ template <typename BeliefShape>
 void bind_frames(py::module_& module);
 void bind_mass_functions(py::module_& module);
 void bind_readouts(py::class_<evidence::MassFunction>& mass_function, py::module_& module);
+void bind_utility(py::class_<evidence::MassFunction>& mass_function, py::module_& module);
 void bind_dense(py::class_<evidence::MassFunction>& mass_function, py::module_& module);
 void bind_binary(py::module_& module);
 void bind_batch(py::module_& module);
