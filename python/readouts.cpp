@@ -175,8 +175,10 @@ Dempster's conditioning, a Fused: what is left if the truth is in `event`. None 
       .def("summarized", evidence::summarized, py::arg("most"), R"(summarized(self, most)
 --
 
-At most `most` focal elements, beside ∅: the largest masses stay, the others go to the union of their sets (summarization;
-Lowrance, Garvey and Strat 1986). Never says more than the original: Bel falls, Pl rises. ValueError unless most >= 1.
+At most `most` focal elements, beside ∅: the largest masses stay, the others go to the union of their sets
+(summarization; Lowrance, Garvey and Strat 1986). It never says more than the original: Bel falls, Pl rises.
+
+ValueError unless most >= 1.
 
 >>> frame = Frame.shafer(["A", "B", "C"])
 >>> print(MassFunction(frame, {"A": 0.5, "B": 0.25, "C": 0.25}).summarized(2))

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What rules and decisions give is a value: it compares, copies, pickles, and so comes back from other processes."""
 import copy
+import inspect
 import multiprocessing
 import pickle
 import unittest
@@ -49,6 +50,12 @@ class ResultsTest(unittest.TestCase):
             for again in pickle.loads(pickle.dumps(result)), copy.copy(result), copy.deepcopy(result):
                 self.assertEqual(again, result)
                 self.assertEqual(repr(again), repr(result))
+
+    def test_every_type_that_compares_pickles(self):
+        types = [there for there in vars(evidence).values() if inspect.isclass(there)]
+        compared = {there.__name__ for there in types if "__eq__" in vars(there)}
+        self.assertEqual(compared, {there.__name__ for there in types if "__setstate__" in vars(there)})
+        self.assertLessEqual({type(result).__name__ for result in results()}, compared)
 
     def test_what_is_unpickled_is_checked(self):
         make, arguments, state = M1.decompose().__reduce_ex__(2)[:3]
