@@ -50,6 +50,8 @@ struct OpenBinaryMass {
 struct FusedBinaryMass {
   BinaryMass mass;
   double conflict = 0.0;
+
+  friend constexpr bool operator==(const FusedBinaryMass&, const FusedBinaryMass&) = default;
 };
 
 /// What is done with the conflict that the conjunctive rule leaves.

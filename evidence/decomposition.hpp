@@ -15,6 +15,8 @@ namespace credo::evidence {
 struct CanonicalDecomposition {
   Frame frame;
   std::vector<double> log_weights;  ///< ln w(A); size 2^n, 0 where A does not occur and at Θ
+
+  friend bool operator==(const CanonicalDecomposition&, const CanonicalDecomposition&) = default;
 };
 
 /// ln w(A) = -Σ over B ⊇ A of (-1)^(|B| - |A|) ln q(B). A sum of up to 2^n logarithms: a mass recomposed from it is

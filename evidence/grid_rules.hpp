@@ -29,6 +29,8 @@ using GridSources = SourceList<GridMass>;
 struct FusedGridMass {
   GridMass mass;
   double conflict = 0.0;
+
+  friend constexpr bool operator==(const FusedGridMass&, const FusedGridMass&) = default;
 };
 
 /// Dempster's rule. Associative; exact for any number of opposed sources.

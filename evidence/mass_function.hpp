@@ -111,6 +111,8 @@ class FocalSum {
 struct Fused {
   MassFunction mass;
   double conflict = 0.0;
+
+  friend bool operator==(const Fused&, const Fused&) = default;
 };
 
 /// The mass function without what it gives to ∅, divided by the sum of the rest: Dempster's normalisation.

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <pybind11/operators.h>
-
 #include <algorithm>
 #include <sstream>
 
@@ -126,13 +124,7 @@ From these masses; the rest is ignorance. ValueError unless all are >= 0 and sum
         return record("OpenBinaryMass",
                       {{"yes", py::cast(self.yes)}, {"no", py::cast(self.no)}, {"conflict", py::cast(self.conflict)}});
       });
-  py::class_<FusedBinaryMass>(module, "FusedBinaryMass", "As Fused, of binary masses; unpacks into mass and conflict.")
-      .def_readonly("mass", &FusedBinaryMass::mass, "What the sources say together.")
-      .def_readonly("conflict", &FusedBinaryMass::conflict, "In [0, 1].")
-      .def("__iter__", [](const FusedBinaryMass& self) { return py::iter(py::make_tuple(self.mass, self.conflict)); })
-      .def("__repr__", [](const FusedBinaryMass& self) {
-        return record("FusedBinaryMass", {{"mass", py::cast(self.mass)}, {"conflict", py::cast(self.conflict)}});
-      });
+  bind_fused<FusedBinaryMass>(module, "FusedBinaryMass", "As Fused, of binary masses; unpacks into mass and conflict.");
 }
 
 RampBelief ramp(double max_yes, double yes_full_until, double yes_zero_from, double max_no, double no_zero_until,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pybind11/numpy.h>
+#include <pybind11/operators.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -34,6 +35,9 @@ struct NamedProposition {
   evidence::Proposition set;
 
   [[nodiscard]] evidence::Proposition existing() const { return frame.existing(set); }
+  friend bool operator==(const NamedProposition& a, const NamedProposition& b) {
+    return a.frame == b.frame && a.existing() == b.existing();
+  }
 };
 
 /// What every function takes for a proposition: its text or itself.
@@ -79,6 +83,25 @@ template <typename Value, typename... Members>
                       ((value.*members = state[i++].template cast<Members>()), ...);
                       return value;
                     });
+}
+
+/// Fused, FusedBinaryMass and FusedGridMass: a mass and the conflict that was met on the way to it.
+template <typename Result>
+void bind_fused(py::module_& module, const char* name, const char* doc) {
+  using Mass = decltype(Result::mass);
+  py::class_<Result>(module, name, doc)
+      .def_readonly("mass", &Result::mass, "What the sources say together.")
+      .def_readonly("conflict", &Result::conflict, "In [0, 1].")
+      .def("__iter__", [](const Result& self) { return py::iter(py::make_tuple(self.mass, self.conflict)); })
+      .def(py::self == py::self)
+      .def("__repr__",
+           [name](const Result& self) {
+             return record(name, {{"mass", py::cast(self.mass)}, {"conflict", py::cast(self.conflict)}});
+           })
+      .def(py::pickle([](const Result& self) { return py::make_tuple(self.mass, self.conflict); },
+                      [](const py::tuple& state) {
+                        return Result{state[0].cast<Mass>(), state[1].cast<double>()};
+                      }));
 }
 
 /// The sources that a rule is called with: rule(a, b, c), or rule([a, b, c]) with any iterable.
@@ -136,6 +159,7 @@ template <typename BeliefShape>
 void bind_frames(py::module_& module);
 void bind_mass_functions(py::module_& module);
 void bind_readouts(py::class_<evidence::MassFunction>& mass_function, py::module_& module);
+void bind_utility(py::class_<evidence::MassFunction>& mass_function, py::module_& module);
 void bind_dense(py::class_<evidence::MassFunction>& mass_function, py::module_& module);
 void bind_binary(py::module_& module);
 void bind_batch(py::module_& module);

@@ -52,10 +52,17 @@ log_weights: shape (2^n,), as the property. ValueError for another, or another m
           "ln w(A), shape (2^n,): entry `bits` belongs to the subset whose elements are the bits that are set; 0 at Θ.")
       .def("recompose", &evidence::recompose,
            "recompose(self)\n--\n\nThe conjunction of the simple ones. ValueError where the weights make none.")
-      .def("__repr__", [](const CanonicalDecomposition& self) {
-        return record("CanonicalDecomposition",
-                      {{"frame", py::cast(self.frame)}, {"log_weights", array(self.log_weights)}});
-      });
+      .def(py::self == py::self)
+      .def("__repr__",
+           [](const CanonicalDecomposition& self) {
+             return record("CanonicalDecomposition",
+                           {{"frame", py::cast(self.frame)}, {"log_weights", array(self.log_weights)}});
+           })
+      .def(py::pickle(
+          [](const CanonicalDecomposition& self) { return py::make_tuple(self.frame, array(self.log_weights)); },
+          [](const py::tuple& state) {
+            return decomposition_of(state[0].cast<evidence::Frame>(), state[1].cast<Array>());
+          }));
 }
 
 }  // namespace

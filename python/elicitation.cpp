@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <pybind11/operators.h>
-
 #include <optional>
 
 #include "evidence/piecewise_belief.hpp"

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <pybind11/operators.h>
-
 #include "python/bindings.hpp"
 
 namespace credo::python {
@@ -99,9 +97,7 @@ void bind_set_algebra(py::class_<NamedProposition>& proposition) {
       .def(
           "__ge__", [](const P& a, const P& b) { return a.frame.existing(other_of(a, b)).subset_of(a.set); },
           py::is_operator())
-      .def(
-          "__eq__", [](const P& a, const P& b) { return a.frame == b.frame && a.existing() == b.existing(); },
-          py::is_operator())
+      .def(py::self == py::self)
       .def("__hash__", [](const P& a) { return a.existing().hash(); })
       .def("__bool__", [](const P& a) { return !a.existing().empty(); })
       .def("__index__", bits_of);

@@ -3,8 +3,6 @@
 
 #include "evidence/grid_rules.hpp"
 
-#include <pybind11/operators.h>
-
 #include <sstream>
 
 #include "python/bindings.hpp"
@@ -69,16 +67,6 @@ All but the ignorance times the reliability in [0, 1].)")
            "without_conflict(self)\n--\n\nThe conflict divided out (Dempster). None at total conflict.");
 }
 
-void bind_fused_grid(py::module_& module) {
-  py::class_<FusedGridMass>(module, "FusedGridMass", "As Fused, of grid masses; unpacks into mass and conflict.")
-      .def_readonly("mass", &FusedGridMass::mass, "What the sources say together, without conflict.")
-      .def_readonly("conflict", &FusedGridMass::conflict, "In [0, 1].")
-      .def("__iter__", [](const FusedGridMass& self) { return py::iter(py::make_tuple(self.mass, self.conflict)); })
-      .def("__repr__", [](const FusedGridMass& self) {
-        return record("FusedGridMass", {{"mass", py::cast(self.mass)}, {"conflict", py::cast(self.conflict)}});
-      });
-}
-
 }  // namespace
 
 void bind_grid(py::module_& module) {
@@ -123,7 +111,7 @@ From the committed masses; the rest is ignorance. ValueError unless all are >= 0
                                         {"conflict", py::cast(self.conflict)}});
            })
       .def(pickled(&GridMass::empty, &GridMass::occupied, &GridMass::conflict, &GridMass::unknown));
-  bind_fused_grid(module);
+  bind_fused<FusedGridMass>(module, "FusedGridMass", "As Fused, of grid masses; unpacks into mass and conflict.");
   module.def(
       "dsmc",
       [](const py::args& sources) {

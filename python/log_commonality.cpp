@@ -3,8 +3,6 @@
 
 #include "evidence/log_commonality.hpp"
 
-#include <pybind11/operators.h>
-
 #include <algorithm>
 #include <cmath>
 

@@ -3,8 +3,6 @@
 
 #include "evidence/log_evidence.hpp"
 
-#include <pybind11/operators.h>
-
 #include <cmath>
 
 #include "python/bindings.hpp"

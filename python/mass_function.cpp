@@ -3,10 +3,9 @@
 
 #include "evidence/mass_function.hpp"
 
-#include <pybind11/operators.h>
-
 #include <sstream>
 
+#include "evidence/generalized_bayes.hpp"
 #include "python/bindings.hpp"
 
 namespace credo::python {
@@ -89,7 +88,11 @@ ValueError for a mass that is nan, negative or over 1, a sum other than 1, a pro
           },
           py::arg("frame"), py::arg("masses"),
           "with_rest_unknown(frame, masses)\n--\n\nThe rest to 1 goes to Θ. ValueError as the constructor, but for a "
-          "sum below 1.")
+          "sum below 1.");
+}
+
+void bind_special_kinds(py::class_<MassFunction>& mass_function) {
+  mass_function
       .def_static("vacuous", &MassFunction::vacuous, py::arg("frame"),
                   "vacuous(frame)\n--\n\nAll mass on Θ: total ignorance.")
       .def_static(
@@ -102,7 +105,11 @@ ValueError for a mass that is nan, negative or over 1, a sum other than 1, a pro
             return MassFunction::simple_support(frame, resolved(frame, set), mass);
           },
           py::arg("frame"), py::arg("set"), py::arg("mass"),
-          "simple_support(frame, set, mass)\n--\n\n`mass` in [0, 1] on one proposition, the rest on Θ.")
+          "simple_support(frame, set, mass)\n--\n\n`mass` in [0, 1] on one proposition, the rest on Θ.");
+}
+
+void bind_masses_of_elements(py::class_<MassFunction>& mass_function) {
+  mass_function
       .def_static(
           "bayesian",
           [](const Frame& frame, const Array& probabilities) {
@@ -120,7 +127,26 @@ ValueError for a mass that is nan, negative or over 1, a sum other than 1, a pro
 
 Nested focal elements whose plausibilities of the elements are these, a possibility distribution. Power sets only.
 
-contour: shape (n,), each in [0, 1], the largest 1.)");
+contour: shape (n,), each in [0, 1], the largest 1.)")
+      .def_static(
+          "generalized_bayes",
+          [](const Frame& frame, const Array& plausibilities) {
+            const std::span<const double> given = numbers(plausibilities, "plausibilities");
+            return without_gil([&] { return evidence::generalized_bayes(frame, given); });
+          },
+          py::arg("frame"), py::arg("plausibilities"), R"(generalized_bayes(frame, plausibilities)
+--
+
+What an observation says about the elements, given how plausible it is where each of them is the truth; no prior is
+needed (generalized Bayesian theorem; Smets 1993). m(∅) says how little it fits any of them; Dempster's rule with a
+Bayesian prior makes it Bayes' theorem. Power sets of up to 20 elements.
+
+plausibilities: shape (n,), each in [0, 1]. ValueError for others.
+
+>>> weather = Frame.shafer(["rain", "sun"])
+>>> wet_street = MassFunction.generalized_bayes(weather, [1.0, 0.25])
+>>> dict(zip(map(str, wet_street), wet_street.values()))
+{'rain': 0.75, 'Θ': 0.25})");
 }
 
 void bind_mass_mapping(py::class_<MassFunction>& mass_function) {
@@ -153,19 +179,6 @@ void bind_mass_properties(py::class_<MassFunction>& mass_function) {
       .def_property_readonly("is_consonant", &MassFunction::is_consonant, "The focal elements are nested.");
 }
 
-void bind_fused(py::module_& module) {
-  py::class_<Fused>(module, "Fused",
-                    R"(A mass function and the conflict that was met (and moved or divided out) on the way.
-
-Unpacks: `mass, conflict = dempster(a, b)`.)")
-      .def_readonly("mass", &Fused::mass, "What the sources say together.")
-      .def_readonly("conflict", &Fused::conflict, "In [0, 1].")
-      .def("__iter__", [](const Fused& self) { return py::iter(py::make_tuple(self.mass, self.conflict)); })
-      .def("__repr__", [](const Fused& self) {
-        return record("Fused", {{"mass", py::cast(self.mass)}, {"conflict", py::cast(self.conflict)}});
-      });
-}
-
 }  // namespace
 
 void bind_mass_functions(py::module_& module) {
@@ -180,10 +193,16 @@ a mapping from its focal elements; `m[set]` is 0 for what is none.
 >>> m["A"], m["B"], [str(set) for set in m]
 (0.6, 0.0, ['A', 'Θ']))");
   bind_mass_making(mass_function);
+  bind_special_kinds(mass_function);
+  bind_masses_of_elements(mass_function);
   bind_mass_mapping(mass_function);
   bind_mass_properties(mass_function);
-  bind_fused(module);
+  bind_fused<Fused>(module, "Fused",
+                    R"(A mass function and the conflict that was met (and moved or divided out) on the way.
+
+Unpacks: `mass, conflict = dempster(a, b)`.)");
   bind_readouts(mass_function, module);
+  bind_utility(mass_function, module);
   bind_dense(mass_function, module);
   mass_function.def(py::self == py::self)
       .def("__repr__", mass_repr)

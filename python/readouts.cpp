@@ -8,6 +8,7 @@
 #include "evidence/discounting.hpp"
 #include "evidence/measures.hpp"
 #include "evidence/probability.hpp"
+#include "evidence/summarization.hpp"
 #include "python/bindings.hpp"
 
 namespace credo::python {
@@ -25,6 +26,8 @@ struct Decision {
   bool rejected;
   double value;
   double margin;
+
+  friend bool operator==(const Decision&, const Decision&) = default;
 };
 
 Decision decide(const MassFunction& mass, const std::optional<std::vector<SetLike>>& candidates,
@@ -127,7 +130,7 @@ criterion: "belief", "plausibility" or "pignistic". Rejected are a value below m
 min_margin, and all at m(∅) = 1.)");
 }
 
-void bind_changes(py::class_<MassFunction>& mass_function) {
+void bind_discounting(py::class_<MassFunction>& mass_function) {
   mass_function
       .def(
           "discount",
@@ -151,7 +154,11 @@ reliabilities: shape (n,), each in [0, 1]; where the truth is that element.)")
       .def("decay", evidence::decay, py::arg("age"), py::arg("half_life"), R"(decay(self, age, half_life)
 --
 
-discount(2^(-age / half_life)): what was said a time ago. age >= 0, half_life > 0, in one unit.)")
+discount(2^(-age / half_life)): what was said a time ago. age >= 0, half_life > 0, in one unit.)");
+}
+
+void bind_changes(py::class_<MassFunction>& mass_function) {
+  mass_function
       .def(
           "condition",
           [](const MassFunction& self, const SetLike& event) {
@@ -164,7 +171,18 @@ Dempster's conditioning, a Fused: what is left if the truth is in `event`. None 
       .def("normalised", evidence::normalised,
            "normalised(self)\n--\n\nA Fused without m(∅), divided by the sum of the rest. None if there is no rest.")
       .def("negation", evidence::negation,
-           "negation(self)\n--\n\nThe masses given to the complements: m'(A) = m(¬A). Power sets only.");
+           "negation(self)\n--\n\nThe masses given to the complements: m'(A) = m(¬A). Power sets only.")
+      .def("summarized", evidence::summarized, py::arg("most"), R"(summarized(self, most)
+--
+
+At most `most` focal elements, beside ∅: the largest masses stay, the others go to the union of their sets
+(summarization; Lowrance, Garvey and Strat 1986). It never says more than the original: Bel falls, Pl rises.
+
+ValueError unless most >= 1.
+
+>>> frame = Frame.shafer(["A", "B", "C"])
+>>> print(MassFunction(frame, {"A": 0.5, "B": 0.25, "C": 0.25}).summarized(2))
+{A: 0.5, B ∪ C: 0.5})");
 }
 
 }  // namespace
@@ -175,14 +193,23 @@ void bind_readouts(py::class_<MassFunction>& mass_function, py::module_& module)
       .def_readonly("rejected", &Decision::rejected, "Its value or lead is too small.")
       .def_readonly("value", &Decision::value, "What the criterion gives it.")
       .def_readonly("margin", &Decision::margin, "Lead over the second; the value itself where there is none.")
-      .def("__repr__", [](const Decision& self) {
-        return record("Decision", {{"choice", py::cast(self.choice)},
-                                   {"rejected", py::cast(self.rejected)},
-                                   {"value", py::cast(self.value)},
-                                   {"margin", py::cast(self.margin)}});
-      });
+      .def(py::self == py::self)
+      .def("__repr__",
+           [](const Decision& self) {
+             return record("Decision", {{"choice", py::cast(self.choice)},
+                                        {"rejected", py::cast(self.rejected)},
+                                        {"value", py::cast(self.value)},
+                                        {"margin", py::cast(self.margin)}});
+           })
+      .def(py::pickle(
+          [](const Decision& self) { return py::make_tuple(self.choice, self.rejected, self.value, self.margin); },
+          [](const py::tuple& state) {
+            return Decision{state[0].cast<NamedProposition>(), state[1].cast<bool>(), state[2].cast<double>(),
+                            state[3].cast<double>()};
+          }));
   bind_measures(mass_function);
   bind_probabilities(mass_function);
+  bind_discounting(mass_function);
   bind_changes(mass_function);
   module.def("conflict_between", evidence::conflict_between, py::arg("a"), py::arg("b"), R"(conflict_between(a, b)
 --

@@ -181,9 +181,15 @@ void bind_table(py::module_& module) {
       .def_readonly("name", &NamedRule::name, "As in rules().")
       .def_readonly("laws", &NamedRule::laws, "What holds for it.")
       .def("__call__", combined, "__call__(self, *sources)\n--\n\nAs the function of its name.")
-      .def("__repr__", [](const NamedRule& self) {
-        return record("Rule", {{"name", py::cast(self.name)}});
-      });
+      .def(
+          "__eq__", [](const NamedRule& a, const NamedRule& b) { return a.name == b.name; }, py::is_operator())
+      .def("__hash__", [](const NamedRule& self) { return py::hash(py::cast(self.name)); })
+      .def("__repr__",
+           [](const NamedRule& self) {
+             return record("Rule", {{"name", py::cast(self.name)}});
+           })
+      .def(py::pickle([](const NamedRule& self) { return py::make_tuple(self.name); },
+                      [](const py::tuple& state) { return evidence::rule_named(state[0].cast<std::string>()); }));
   module.def(
       "rules",
       [] {

@@ -14,6 +14,7 @@ RANDOM = np.random.default_rng(1)
 CELLS = RANDOM.dirichlet(np.ones(3), (300, 300))
 FRAME = Frame.shafer(["A", "B", "C", "D"])
 MASSES = [MassFunction(FRAME, zip(FRAME.propositions(), RANDOM.dirichlet(np.ones(15)))) for _ in range(3)]
+MANY = Frame.shafer([str(i) for i in range(12)])
 X = RANDOM.random(10000)
 LONG = {
     "rules on arrays": lambda: batch.pcr5(CELLS, CELLS),
@@ -22,6 +23,7 @@ LONG = {
     "closed forms by enumeration": lambda: evidence.pcr5([BinaryMass(0.3, 0.3)] * 9),
     "fits": lambda: evidence.fit_shape(X, X > 0.5, "match", "score", "1"),
     "shapes of arrays": lambda: RampBelief(max_yes=0.5)(X),
+    "observations of many elements": lambda: MassFunction.generalized_bayes(MANY, np.full(12, 0.5)),
     "relations": lambda: evidence.most_plausible_relation(CELLS[:40, :40]),
 }
 
