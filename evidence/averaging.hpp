@@ -3,11 +3,16 @@
 
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "evidence/mass_function.hpp"
 
 namespace credo::evidence {
+
+/// Sum of the weights of an average; without weights each source has 1.
+/// \throws std::invalid_argument unless there are none, or one for each source, >= 0, finite and not all 0
+[[nodiscard]] double total_weight(std::span<const double> weights, std::size_t sources);
 
 /// Mean of the mass functions, set by set. For sources of which nothing is known, dependent or not. Idempotent,
 /// commutative, not associative; the vacuous mass function is not neutral: it dilutes. No conflict arises.

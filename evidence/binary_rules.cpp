@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "evidence/averaging.hpp"
 #include "evidence/binary_cell.hpp"
 #include "evidence/pcr6_quadrature.hpp"
 #include "evidence/proportional.hpp"
@@ -147,17 +148,10 @@ BinaryMass disjunctive(const BinarySources& sources) {
 
 BinaryMass average(const BinarySources& sources, std::span<const double> weights) {
   need_a_source(sources.size(), "an average");
-  double total = 0.0;
-  for (const double weight : weights) {
-    if (!(weight >= 0.0)) throw std::invalid_argument("the weights of an average must be >= 0");
-    total += weight;
-  }
-  if (!weights.empty() && (weights.size() != sources.size() || !(total > 0.0) || std::isinf(total))) {
-    throw std::invalid_argument("an average needs one finite weight for each source, not all of them 0");
-  }
+  const double total = total_weight(weights, sources.size());
   BinaryMass sum{0.0, 0.0, 0.0};
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const double share = weights.empty() ? 1.0 / static_cast<double>(sources.size()) : weights[i] / total;
+    const double share = (weights.empty() ? 1.0 : weights[i]) / total;
     sum.yes += share * sources[i].yes;
     sum.no += share * sources[i].no;
     sum.unknown += share * sources[i].unknown;
