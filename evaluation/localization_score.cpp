@@ -81,17 +81,17 @@ void add_errors(LocalizationScore& result, const std::vector<Sample>& samples) {
 }
 
 void add_protection(LocalizationScore& result, const std::vector<Sample>& samples, const ScoreParams& params) {
-  const auto monitored = [](const Sample& s) { return !std::isnan(s.row->protection.position_high_m); };
+  const auto monitored = [](const Sample& s) { return !std::isnan(s.row->localization.protection.position_high_m); };
   if (std::none_of(samples.begin(), samples.end(), monitored)) return;
   const auto available = [&](const Sample& s) {
     return s.row->localization.status == Status::kLocalized &&
-           s.row->protection.position_high_m <= params.available_level_m &&
-           s.row->protection.heading_high_rad <= geometry::to_radians(params.available_level_deg);
+           s.row->localization.protection.position_high_m <= params.available_level_m &&
+           s.row->localization.protection.heading_high_rad <= geometry::to_radians(params.available_level_deg);
   };
   result.available = share(samples, available);
   result.misleading = share(samples, [&](const Sample& s) {
-    return available(s) &&
-           (s.position_m > s.row->protection.position_high_m || s.heading_rad > s.row->protection.heading_high_rad);
+    return available(s) && (s.position_m > s.row->localization.protection.position_high_m ||
+                            s.heading_rad > s.row->localization.protection.heading_high_rad);
   });
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,15 @@ struct Hypothesis {
   double plausibility = 1.0;
 };
 
+/// How far off the pose can be at the integrity risk that was asked for; nan: no integrity monitor has looked. An
+/// interval, as the frequency of faults is known to an interval only.
+struct ProtectionLevels {
+  double position_low_m = std::numeric_limits<double>::quiet_NaN();
+  double position_high_m = std::numeric_limits<double>::quiet_NaN();
+  double heading_low_rad = std::numeric_limits<double>::quiet_NaN();
+  double heading_high_rad = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// Where the robot is, and whether to believe it. Never a bare pose.
 struct Localization {
   sensors::Timestamp time = 0;
@@ -37,6 +47,7 @@ struct Localization {
   double innovation = 0.0;          ///< squared Mahalanobis distance of the pose from its prediction
   bool unrecognised = false;        ///< much of what the plan has in sight is not seen
   bool off_plan = false;            ///< much of the scan does not lie on the plan
+  ProtectionLevels protection = {};
   Status status = Status::kInitializing;
   int detected = 0;                    ///< primitives in the scene
   int matched = 0;                     ///< of them, matched to the map and used for the pose

@@ -373,7 +373,8 @@ double PoseSolver::State::bounded_cost(const Prior& prior, const PoseState::Vect
 }
 
 void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState::Vector& x) {
-  const BlockMatrices of_pose = pose_covariances(information(prior, linearised, omega));
+  solution.information = information(prior, linearised, omega);
+  const BlockMatrices of_pose = pose_covariances(solution.information);
   const BlockMatrices blocks = intersected(prior, omega);
   const BlockMatrices fresh{prior.pose.independent, prior.common.scan.noise, prior.common.camera.noise};
   Matrix3d independent = Matrix3d::Zero();
@@ -386,11 +387,13 @@ void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState
     const Linearised& l = linearised[k];
     Matrix32d by_residual = Matrix32d::Zero();
     for (int b = 0; b < kBlocks; ++b) by_residual += of_pose[b] * l.by_state.middleCols<3>(3 * b).transpose();
-    const Matrix32d gain = by_residual * intersected(l, omega).inverse();
+    const Matrix2d weight = intersected(l, omega).inverse();
+    const Matrix32d gain = by_residual * weight;
     independent += gain * (l.covariance.noise / l.weight) * gain.transpose();
     Vector2d residual;
     evaluate(observations[k], x, residual, nullptr);
     const double squared = residual.dot((l.covariance.noise + l.covariance.plan).inverse() * residual);
+    solution.linearised.push_back({observations[k].landmark, residual, l.by_state, weight});
     solution.mahalanobis_squared.push_back(squared);
     solution.outlier.push_back(squared > gates[static_cast<std::size_t>(observations[k].dimension() - 1)]);
   }
@@ -418,6 +421,7 @@ const PoseSolution& PoseSolver::solve(const SplitPose& prior_pose, const std::ve
   State& s = *state_;
   s.solution.mahalanobis_squared.clear();
   s.solution.outlier.clear();
+  s.solution.linearised.clear();
   s.solution.prior_mahalanobis_squared = 0.0;
   if (observations.empty()) {
     s.solution.pose = prior_pose;

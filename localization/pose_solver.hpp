@@ -66,15 +66,25 @@ struct PoseState {
   using Jacobian = Eigen::Matrix<double, 2, kSize>;  ///< of a residual
 };
 
+/// An observation as the solution used it, linearised there.
+struct LinearisedObservation {
+  tracking::LandmarkId landmark = tracking::kNoLandmark;
+  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+  PoseState::Jacobian by_state = PoseState::Jacobian::Zero();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< robust weight included; a bearing's second row is idle
+};
+
 /// The pose and what came of each observation.
 struct PoseSolution {
   SplitPose pose;
   /// The common errors as they explain this acquisition best: of the scan (x, y, theta in the base frame), of the
   /// camera's yaw and of its first harmonic, which a mirror off its centre makes. [m, m, rad, rad, rad, rad]
   Eigen::Matrix<double, 6, 1> common_errors = Eigen::Matrix<double, 6, 1>::Zero();
-  std::vector<double> mahalanobis_squared;  ///< of each observation's residual at the solution
-  std::vector<bool> outlier;                ///< by PoseSolverParams::outlier_probability
-  double prior_mahalanobis_squared = 0.0;   ///< of the step from the prior
+  std::vector<double> mahalanobis_squared;                        ///< of each observation's residual at the solution
+  std::vector<bool> outlier;                                      ///< by PoseSolverParams::outlier_probability
+  double prior_mahalanobis_squared = 0.0;                         ///< of the step from the prior
+  std::vector<LinearisedObservation> linearised;                  ///< one for each observation
+  PoseState::Matrix information = PoseState::Matrix::Identity();  ///< of the state: prior and all of `linearised`
 
   [[nodiscard]] geometry::PoseEstimate estimate() const { return {pose.pose, pose.covariance()}; }
 };

@@ -139,10 +139,10 @@ LocalizationRow read_row(RowReader read) {
   l.detected = read.count();
   l.matched = read.count();
   l.tracked = read.count();
-  row.protection.position_low_m = read.real();
-  row.protection.position_high_m = read.real();
-  row.protection.heading_low_rad = read.real();
-  row.protection.heading_high_rad = read.real();
+  l.protection.position_low_m = read.real();
+  l.protection.position_high_m = read.real();
+  l.protection.heading_low_rad = read.real();
+  l.protection.heading_high_rad = read.real();
   l.reason = read.text();
   return row;
 }
@@ -153,7 +153,7 @@ std::string to_line(const LocalizationRow& row) {
   const localization::Localization& l = row.localization;
   const geometry::Pose2& pose = l.estimate.pose;
   const Eigen::Matrix3d& c = l.estimate.covariance;
-  const ProtectionLevels& p = row.protection;
+  const localization::ProtectionLevels& p = l.protection;
   return fmt::format(
       "{},{:.6f},{:.6f},{:.9f},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{},{},"
       "{:.6f},{:.6f},{:.9f},{:.9f},{}\n",

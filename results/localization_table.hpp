@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,18 +12,9 @@
 
 namespace credo::results {
 
-/// How far off the pose can be at the integrity risk that was asked for; nan: no integrity monitor has looked.
-struct ProtectionLevels {
-  double position_low_m = std::numeric_limits<double>::quiet_NaN();
-  double position_high_m = std::numeric_limits<double>::quiet_NaN();
-  double heading_low_rad = std::numeric_limits<double>::quiet_NaN();
-  double heading_high_rad = std::numeric_limits<double>::quiet_NaN();
-};
-
 /// One row of localization.csv. `localization.hypotheses` is empty: they have a table of their own.
 struct LocalizationRow {
   localization::Localization localization;
-  ProtectionLevels protection = {};
 };
 
 /// The first line of localization.csv, with the line's end.

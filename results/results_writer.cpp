@@ -82,10 +82,9 @@ ResultsWriter::ResultsWriter(ResultsWriter&&) noexcept = default;
 ResultsWriter& ResultsWriter::operator=(ResultsWriter&&) noexcept = default;
 
 void ResultsWriter::add(const perception::Scene& scene, const localization::Localization& localization,
-                        std::span<const tracking::Track> tracks, const ProtectionLevels& protection) {
+                        std::span<const tracking::Track> tracks) {
   state_->trajectory += tum_line(localization);
-  LocalizationRow row{.localization = localization, .protection = protection};
-  state_->localization += to_line(row);
+  state_->localization += to_line({.localization = localization});
   append_hypotheses(state_->hypotheses, localization);
   append_tracks(state_->tracks, localization.time, tracks);
   append_primitives(state_->primitives, scene);

@@ -29,7 +29,7 @@ class ResultsWriter {
 
   /// One acquisition: a row of trajectory.tum and of localization.csv, and the rows of the other tables.
   void add(const perception::Scene& scene, const localization::Localization& localization,
-           std::span<const tracking::Track> tracks, const ProtectionLevels& protection = {});
+           std::span<const tracking::Track> tracks);
   /// map.yaml, map.pgm and map_belief.tiff.
   void add_map(const grids::EvidentialGrid& grid, const grids::DecisionParams& decision = {},
                BeliefChannels channels = BeliefChannels::kNormalized);

@@ -86,9 +86,9 @@ TEST(LocalizationScore, FalseAlertsAreABoundWhereNobodyRecordedDegradedSensors) 
 TEST(LocalizationScore, AvailabilityNeedsAMonitor) {
   EXPECT_FALSE(score_of({row(0, 0, 0, 0.9)}).available);
   auto tight = row(0, 0.2, 0, 0.9), loose = row(1, 0.0, 0, 0.9), honest = row(2, 0.2, 0, 0.9);
-  tight.protection = {0.0, 0.1, 0.0, 0.05};
-  loose.protection = {0.0, 0.6, 0.0, 0.05};
-  honest.protection = {0.0, 0.3, 0.0, 0.05};
+  tight.localization.protection = {0.0, 0.1, 0.0, 0.05};
+  loose.localization.protection = {0.0, 0.6, 0.0, 0.05};
+  honest.localization.protection = {0.0, 0.3, 0.0, 0.05};
   const auto s = score_of({tight, loose, honest});
   EXPECT_NEAR(*s.available, 2.0 / 3, 1e-12);
   EXPECT_NEAR(*s.misleading, 1.0 / 3, 1e-12);

@@ -58,13 +58,13 @@ TEST_F(Table, ReadsBackWhatWasWritten) {
   EXPECT_EQ(l.matched, 9);
   EXPECT_EQ(l.tracked, 14);
   EXPECT_EQ(l.reason, row.localization.reason);
-  EXPECT_TRUE(std::isnan(rows[0].protection.position_high_m));
+  EXPECT_TRUE(std::isnan(rows[0].localization.protection.position_high_m));
 }
 
 TEST_F(Table, KeepsProtectionLevels) {
   LocalizationRow row = example();
-  row.protection = {0.125, 0.25, 0.5, 0.75};
-  const auto p = read(header_ + to_line(row))[0].protection;
+  row.localization.protection = {0.125, 0.25, 0.5, 0.75};
+  const auto p = read(header_ + to_line(row))[0].localization.protection;
   EXPECT_EQ(p.position_low_m, 0.125);
   EXPECT_EQ(p.heading_high_rad, 0.75);
 }
