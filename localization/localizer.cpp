@@ -55,6 +55,7 @@ struct Localizer::State {
         solver(rig, params.solver),
         scan_matcher(map, params.scan),
         tracker(params.tracker),
+        monitor(params.integrity),
         absolute(initial.has_value() && !map.empty()),
         predictor(params.constant_velocity) {
     if (absolute) {
@@ -72,6 +73,7 @@ struct Localizer::State {
   PoseSolver solver;
   ScanMatcher scan_matcher;
   tracking::Tracker tracker;
+  IntegrityMonitor monitor;
   bool absolute;  ///< poses are in the map frame, not relative to the start
   SplitPose current;
   PoseSolution solution;
@@ -89,6 +91,7 @@ struct Localizer::State {
   std::vector<bool> used;  ///< by primitive
   std::vector<LandmarkId> taken;
   std::vector<MapMatch> new_matches;
+  std::vector<double> landmark_beliefs;  ///< by observation
 
   [[nodiscard]] PoseEstimate estimate() const { return {current.pose, current.covariance()}; }
   [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
@@ -113,6 +116,7 @@ struct Localizer::State {
   void search_pose(const Scene& scene, const SplitPose& predicted, bool odometry);
   bool match_anew(const Scene& scene, const SplitPose& expected);
   [[nodiscard]] Localization report(const Scene& scene) const;
+  [[nodiscard]] Integrity watch();
   void weigh(const Scene& scene, Localization& fix);
   void remember(const Localization& fix);
 };
@@ -418,6 +422,18 @@ Localization Localizer::State::report(const Scene& scene) const {
   return fix;
 }
 
+/// How far off the pose can be.
+Integrity Localizer::State::watch() {
+  constexpr double kUntracked = 0.5;  // BetP of not knowing
+  landmark_beliefs.clear();
+  for (const Observation& o : observations) {
+    const bool tracked = o.track >= 0;
+    landmark_beliefs.push_back(tracked ? tracker.tracks()[static_cast<std::size_t>(o.track)].existence.pignistic()
+                                       : kUntracked);
+  }
+  return monitor.assess(solution, landmark_beliefs);
+}
+
 /// Belief and status of an absolute pose. Where nothing is seen there is no evidence against it: what was believed
 /// fades into not knowing.
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
@@ -438,6 +454,8 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
     fix.belief = evidence::discount(fix.belief, params.unchecked_reliability);
   fix.unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
   fix.off_plan = agreement_belief(evidence, params.belief).no > 0.0;
+  const Integrity integrity = watch();
+  fix.protection = integrity.protection;
   if (fix.unrecognised || fix.off_plan) {
     current.independent += doubt();
     fix.estimate = estimate();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/floor_plan.hpp"
+#include "localization/integrity_monitor.hpp"
 #include "localization/localization.hpp"
 #include "localization/localization_belief.hpp"
 #include "localization/map_matching.hpp"
@@ -29,6 +30,7 @@ struct LocalizerParams {
   ScanAgreementParams scan;
   LocalizationEvidenceParams evidence;
   LocalizationBeliefParams belief;
+  IntegrityParams integrity;
   StatusParams status;
   ConstantVelocityParams constant_velocity;
   int matching_rounds = 3;  ///< map matching and pose in turn: each round knows the pose better

@@ -393,7 +393,8 @@ void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState
     Vector2d residual;
     evaluate(observations[k], x, residual, nullptr);
     const double squared = residual.dot((l.covariance.noise + l.covariance.plan).inverse() * residual);
-    solution.linearised.push_back({observations[k].landmark, residual, l.by_state, weight});
+    const bool bearing = observations[k].kind == ObservationKind::kBearing;
+    solution.linearised.push_back({observations[k].landmark, bearing, residual, l.by_state, weight});
     solution.mahalanobis_squared.push_back(squared);
     solution.outlier.push_back(squared > gates[static_cast<std::size_t>(observations[k].dimension() - 1)]);
   }

@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "localization/integrity_monitor.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "geometry/principal_axes.hpp"
+
+namespace credo::localization {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using StateMatrix = PoseState::Matrix;
+using StateVector = PoseState::Vector;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kDetermined = 1e-9;  ///< of a determinant that is 1 where what is taken out said nothing
+
+/// Inverse of an information matrix; nothing where it is singular.
+bool invert(const StateMatrix& information, StateMatrix& covariance) {
+  const Eigen::LDLT<StateMatrix> decomposed(information);
+  if (decomposed.info() != Eigen::Success || !(decomposed.vectorD().minCoeff() > 0.0)) return false;
+  for (int i = 0; i < PoseState::kSize; ++i) covariance.col(i) = decomposed.solve(StateVector::Unit(i));
+  return true;
+}
+
+double largest_sigma(const Matrix3d& covariance) {
+  return std::sqrt(std::max(0.0, geometry::principal_axes(covariance.topLeftCorner<2, 2>()).largest));
+}
+
+/// How far a pose is from another in standard deviations of the difference: the root of chi-square with 3 degrees of
+/// freedom over 3, so that about 1 is expected.
+double normalised(const Vector3d& shift, const Matrix3d& without, const Matrix3d& with) {
+  // Without what is taken out the pose is less sure; where the two are equal, what is out has said nothing.
+  const Matrix3d difference = without - with + 1e-3 * with;
+  const double squared = shift.dot(difference.inverse() * shift);
+  return squared > 0.0 ? std::sqrt(squared / 3.0) : 0.0;
+}
+
+/// exp(-x^2 / 2): at least the probability that a normal error in two dimensions is longer than x standard deviations
+/// of the worst of them (Rayleigh), or one in one dimension larger in magnitude. Looked up; the chord of a convex
+/// function lies above it.
+class Tail {
+ public:
+  Tail() {
+    for (int i = 0; i <= kSteps; ++i) values_[static_cast<std::size_t>(i)] = std::exp(-0.5 * std::pow(i * kStep, 2));
+  }
+  double operator()(double x) const {
+    if (!(x > 0.0)) return 1.0;
+    const double at = x / kStep;
+    if (!(at < kSteps)) return values_[kSteps];
+    const auto i = static_cast<std::size_t>(at);
+    return values_[i] + (at - static_cast<double>(i)) * (values_[i + 1] - values_[i]);
+  }
+
+ private:
+  static constexpr int kSteps = 800;
+  static constexpr double kStep = 0.01;
+  std::array<double, kSteps + 1> values_{};
+};
+
+ProbabilityInterval fault_of(double belief, const IntegrityParams& params) {
+  ProbabilityInterval fault = params.match_faults.front().fault;
+  for (const FaultPrior& prior : params.match_faults)
+    if (belief >= prior.from_belief) fault = prior.fault;
+  return fault;
+}
+
+ProbabilityInterval both(const ProbabilityInterval& a, const ProbabilityInterval& b) {
+  return {a.low * b.low, a.high * b.high};
+}
+
+}  // namespace
+
+/// Pieces of one wall are taken together: their rows span the same two dimensions.
+void IntegrityMonitor::list_landmarks(const PoseSolution& solution, std::span<const double> beliefs) {
+  assert(beliefs.size() == solution.linearised.size());
+  landmarks_.clear();
+  for (std::size_t k = 0; k < solution.linearised.size(); ++k) {
+    const LinearisedObservation& o = solution.linearised[k];
+    const ProbabilityInterval fault = fault_of(beliefs[k], params_);
+    const auto known =
+        std::find_if(landmarks_.begin(), landmarks_.end(), [&o](const Landmark& l) { return l.id == o.landmark; });
+    if (known == landmarks_.end() || o.bearing) {
+      landmarks_.push_back({o.landmark, o.by_state, o.information, o.information * o.residual, fault});
+      continue;
+    }
+    const PoseState::Jacobian& H = known->by_state;
+    const Matrix2d T = o.by_state * H.transpose() * (H * H.transpose()).inverse();  // o.by_state = T H
+    known->information += T.transpose() * o.information * T;
+    known->weighted_residual += T.transpose() * (o.information * o.residual);
+    known->fault = {std::max(known->fault.low, fault.low), std::max(known->fault.high, fault.high)};
+  }
+}
+
+/// Takes landmarks out of the covariance P of the state, one at a time and two at a time (Sherman, Morrison and
+/// Woodbury): without H, (P^-1 - H^T W H)^-1 = P + P H^T M H P with M = (1 - W H P H^T)^-1 W. Of all this only the
+/// pose's rows are needed: G = P H^T there, and C_ij = H_i P H_j^T.
+void IntegrityMonitor::add_landmarks(const StateMatrix& covariance, Integrity& integrity) {
+  using Matrix32d = Eigen::Matrix<double, 3, 2>;
+  const Matrix3d with_all = covariance.topLeftCorner<3, 3>();
+  const auto add = [&](const ProbabilityInterval& fault, const Matrix3d& P, const Vector3d& shift) {
+    hypotheses_.push_back(
+        {fault, shift.head<2>().norm(), std::abs(shift(2)), largest_sigma(P), std::sqrt(std::max(0.0, P(2, 2)))});
+  };
+  const auto add_undetermined = [&](const ProbabilityInterval& fault) {
+    hypotheses_.push_back({fault, 0.0, 0.0, kInfinity, kInfinity});
+  };
+  by_landmark_.clear();
+  for (const Landmark& l : landmarks_) by_landmark_.push_back(covariance * l.by_state.transpose());
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    const Landmark& first = landmarks_[i];
+    const Matrix32d G_i = by_landmark_[i].topRows<3>();
+    const Matrix2d C_ii = first.by_state * by_landmark_[i];
+    const Matrix2d rest = Matrix2d::Identity() - first.information * C_ii;
+    if (!(rest.determinant() > kDetermined)) {
+      add_undetermined(first.fault);
+      continue;
+    }
+    const Matrix2d M_i = rest.inverse() * first.information;
+    const Matrix3d P_i = with_all + G_i * M_i * G_i.transpose();
+    const Vector3d shift = G_i * (first.weighted_residual + M_i * (C_ii * first.weighted_residual));
+    add(first.fault, P_i, shift);
+    if (const double separation = normalised(shift, P_i, with_all); separation > integrity.separation) {
+      integrity.separation = separation;
+      integrity.separated = first.id;
+    }
+    for (std::size_t j = i + 1; j < landmarks_.size(); ++j) {
+      const Landmark& second = landmarks_[j];
+      const Matrix2d C_ij = first.by_state * by_landmark_[j];
+      const Matrix2d MC = M_i * C_ij;
+      const Matrix32d G_j = by_landmark_[j].topRows<3>() + G_i * MC;
+      const Matrix2d C_jj = second.by_state * by_landmark_[j] + C_ij.transpose() * MC;
+      const Matrix2d left = Matrix2d::Identity() - second.information * C_jj;
+      if (!(left.determinant() > kDetermined)) {
+        add_undetermined(both(first.fault, second.fault));
+        continue;
+      }
+      const Matrix2d M_j = left.inverse() * second.information;
+      const Eigen::Vector2d at_second =
+          C_ij.transpose() * (first.weighted_residual + M_i * (C_ii * first.weighted_residual)) +
+          C_jj * second.weighted_residual;
+      add(both(first.fault, second.fault), P_i + G_j * M_j * G_j.transpose(),
+          shift + G_j * (second.weighted_residual + M_j * at_second));
+    }
+  }
+}
+
+void IntegrityMonitor::add_instruments(const PoseSolution& solution, const StateMatrix& covariance,
+                                       Integrity& integrity) {
+  for (const bool camera : {true, false}) {
+    StateMatrix information = solution.information;
+    StateVector gradient = StateVector::Zero();
+    bool any = false;
+    for (const LinearisedObservation& o : solution.linearised) {
+      if (o.bearing != camera) continue;
+      any = true;
+      information -= o.by_state.transpose() * o.information * o.by_state;
+      gradient += o.by_state.transpose() * (o.information * o.residual);
+    }
+    if (!any) continue;
+    StateMatrix without;
+    const bool determined = invert(information, without);
+    Hypothesis h{params_.instrument_fault, 0.0, 0.0, kInfinity, kInfinity};
+    if (determined) {
+      const Vector3d shift = without.topRows<3>() * gradient;
+      h = {params_.instrument_fault, shift.head<2>().norm(), std::abs(shift(2)),
+           largest_sigma(without.topLeftCorner<3, 3>()), std::sqrt(without(2, 2))};
+      integrity.instrument_separation =
+          std::max(integrity.instrument_separation,
+                   normalised(shift, without.topLeftCorner<3, 3>(), covariance.topLeftCorner<3, 3>()));
+    }
+    hypotheses_.push_back(h);
+  }
+}
+
+/// Wheels that have slipped: the prediction is as unsure as that.
+void IntegrityMonitor::add_prediction(const PoseSolution& solution, const StateMatrix& covariance,
+                                      Integrity& integrity) {
+  StateMatrix of_prior = solution.information;
+  StateVector gradient = StateVector::Zero();  // of the prior: at the solution all gradients sum to nothing
+  for (const LinearisedObservation& o : solution.linearised) {
+    of_prior -= o.by_state.transpose() * o.information * o.by_state;
+    gradient -= o.by_state.transpose() * (o.information * o.residual);
+  }
+  StateMatrix prior_covariance, slipped, without;
+  if (!invert(of_prior, prior_covariance)) return;
+  const StateVector step = prior_covariance * gradient;
+  for (int i = 0; i < 2; ++i) prior_covariance(i, i) += params_.slip_m * params_.slip_m;
+  prior_covariance(2, 2) += params_.slip_rad * params_.slip_rad;
+  if (!invert(prior_covariance, slipped) || !invert(solution.information - of_prior + slipped, without)) return;
+  const Vector3d shift = (without * (gradient - slipped * step)).head<3>();
+  hypotheses_.push_back({params_.prediction_fault, shift.head<2>().norm(), std::abs(shift(2)),
+                         largest_sigma(without.topLeftCorner<3, 3>()), std::sqrt(without(2, 2))});
+  integrity.instrument_separation =
+      std::max(integrity.instrument_separation,
+               normalised(shift, without.topLeftCorner<3, 3>(), covariance.topLeftCorner<3, 3>()));
+}
+
+/// Probability that three landmarks or more are wrong at once: Poisson's, at most the cube of the expected number
+/// over 6.
+ProbabilityInterval IntegrityMonitor::unmonitored() const {
+  ProbabilityInterval expected;
+  for (const Landmark& landmark : landmarks_) {
+    expected.low += landmark.fault.low;
+    expected.high += landmark.fault.high;
+  }
+  return {std::pow(expected.low, 3) / 6.0, std::pow(expected.high, 3) / 6.0};
+}
+
+double IntegrityMonitor::excess(double ProbabilityInterval::*end, double Hypothesis::*separation,
+                                double Hypothesis::*sigma, double level) const {
+  static const Tail tail;
+  double sum = 0.0;
+  for (const Hypothesis& h : hypotheses_) sum += h.probability.*end * tail((level - h.*separation) / h.*sigma);
+  return sum;
+}
+
+/// The smallest level that is exceeded with a probability of at most `risk`, to 2 %; infinity where `most` is exceeded
+/// more often.
+double IntegrityMonitor::level_for(double risk, double ProbabilityInterval::*end, double Hypothesis::*separation,
+                                   double Hypothesis::*sigma, double most) const {
+  constexpr double kGrowth = 1.4, kPrecision = 0.02;
+  const auto log_excess = [&](double level) {
+    return std::log(std::max(excess(end, separation, sigma, level), 1e-300));
+  };
+  const double target = std::log(risk);
+  double low = 4.0 * hypotheses_.front().*sigma, high = low;  // the pose's own error alone is above this
+  double log_low = 0.0, log_high = 0.0;
+  while ((log_high = log_excess(high)) > target) {
+    if (high >= most) return kInfinity;
+    low = high;
+    log_low = log_high;
+    high = std::min(most, kGrowth * high);
+  }
+  while (high - low > kPrecision * high) {
+    const double secant = low + (high - low) * (log_low - target) / (log_low - log_high);
+    const double between = std::clamp(secant, low + 0.1 * (high - low), high - 0.1 * (high - low));
+    const double log_between = log_excess(between);
+    (log_between > target ? low : high) = between;
+    (log_between > target ? log_low : log_high) = log_between;
+  }
+  return high;
+}
+
+Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const double> beliefs,
+                                   std::span<const Alias> aliases) {
+  constexpr double kFarthest_m = 100.0;
+  Integrity integrity;
+  hypotheses_.clear();
+  list_landmarks(solution, beliefs);
+  integrity.landmarks = static_cast<int>(landmarks_.size());
+  const Matrix3d P = solution.pose.covariance();
+  hypotheses_.push_back({{1.0, 1.0}, 0.0, 0.0, largest_sigma(P), std::sqrt(P(2, 2))});
+  if (StateMatrix covariance; invert(solution.information, covariance)) {
+    add_landmarks(covariance, integrity);
+    add_instruments(solution, covariance, integrity);
+    add_prediction(solution, covariance, integrity);
+  }
+  constexpr double kExactly = 1e-3;
+  for (const Alias& alias : aliases)
+    hypotheses_.push_back({alias.probability, alias.distance_m, alias.turn_rad, kExactly, kExactly});
+
+  const ProbabilityInterval rest = unmonitored();
+  const auto levels = [&](double ProbabilityInterval::*end, double& position_m, double& heading_rad) {
+    const double risk = params_.risk - rest.*end;
+    position_m = heading_rad = kInfinity;
+    if (!(risk > 0.0)) return;
+    position_m = level_for(risk, end, &Hypothesis::separation_m, &Hypothesis::sigma_m, kFarthest_m);
+    heading_rad = level_for(risk, end, &Hypothesis::separation_rad, &Hypothesis::sigma_rad, std::numbers::pi);
+  };
+  ProtectionLevels& protection = integrity.protection;
+  levels(&ProbabilityInterval::low, protection.position_low_m, protection.heading_low_rad);
+  levels(&ProbabilityInterval::high, protection.position_high_m, protection.heading_high_rad);
+  return integrity;
+}
+
+}  // namespace credo::localization

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "localization/localization.hpp"
+#include "localization/pose_solver.hpp"
+
+namespace credo::localization {
+
+/// A probability that is known to an interval only.
+struct ProbabilityInterval {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// How often a match is wrong whose track is believed at least so much.
+struct FaultPrior {
+  double from_belief = 0.0;  ///< BetP(YES) of the track's existence, up to the next entry's
+  ProbabilityInterval fault;
+};
+
+struct IntegrityParams {
+  double risk = 1e-5;  ///< of an error above the protection level, per acquisition
+  /// The measured frequency of wrong matches among tracks of equal belief, with its Clopper-Pearson interval at 95 %
+  /// (docs/integrity.md has the command). By growing belief.
+  std::array<FaultPrior, 4> match_faults{
+      {{0.0, {1e-4, 3e-3}}, {0.6, {1e-4, 1e-3}}, {0.8, {1e-4, 1e-3}}, {0.95, {1e-5, 5e-4}}}};
+  ProbabilityInterval instrument_fault{1e-7, 1e-6};  ///< all that an instrument says is wrong in the same way
+  ProbabilityInterval prediction_fault{1e-6, 1e-5};  ///< wheels have slipped since the acquisition before, as far as
+  double slip_m = 0.5;                               ///< this, 1-sigma,
+  double slip_rad = 0.1;                             ///< and this
+};
+
+/// A pose elsewhere that would explain the readings: everything matched may be shifted by a module that repeats.
+struct Alias {
+  double distance_m = 0.0;
+  double turn_rad = 0.0;
+  ProbabilityInterval probability;  ///< that the robot is there
+};
+
+/// What the agreement of independent subsets says of a pose.
+struct Integrity {
+  ProtectionLevels protection;
+  /// Largest separation of the pose from the pose without one landmark, in its expected standard deviations, and that
+  /// landmark. 0 where there are less than two.
+  double separation = 0.0;
+  tracking::LandmarkId separated = tracking::kNoLandmark;
+  /// The same without an instrument (camera, range finder) or without the prediction.
+  double instrument_separation = 0.0;
+  int landmarks = 0;  ///< different ones that the pose rests on
+};
+
+/// Solution separation (Brown and McBurney 1988; multiple hypotheses: Blanch et al., ION GNSS 2012; for landmarks:
+/// Joerger et al., Sensors 2018): under the hypothesis that some of what the pose rests on is wrong, the pose without
+/// it is right, so that the error is at most what separates the two and the error of the latter. Hypotheses: one
+/// landmark, two landmarks, one instrument, the prediction, and an alias. The protection level is the length that all
+/// of these together exceed with a probability of IntegrityParams::risk. Keeps its memory.
+class IntegrityMonitor {
+ public:
+  explicit IntegrityMonitor(const IntegrityParams& params = {}) : params_(params) {}
+
+  /// \param beliefs  of each observation of the solution: BetP(YES) that its track exists
+  /// \param aliases  other places where the robot may be
+  [[nodiscard]] Integrity assess(const PoseSolution& solution, std::span<const double> beliefs,
+                                 std::span<const Alias> aliases = {});
+
+ private:
+  /// What would be true under a hypothesis, against the pose that is reported.
+  struct Hypothesis {
+    ProbabilityInterval probability;
+    double separation_m = 0.0, separation_rad = 0.0;
+    double sigma_m = 0.0, sigma_rad = 0.0;  ///< of the pose without what is wrong; the largest direction
+  };
+  /// All that one landmark says, as one observation.
+  struct Landmark {
+    tracking::LandmarkId id = tracking::kNoLandmark;
+    PoseState::Jacobian by_state = PoseState::Jacobian::Zero();   ///< H
+    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();        ///< W
+    Eigen::Vector2d weighted_residual = Eigen::Vector2d::Zero();  ///< W r
+    ProbabilityInterval fault;
+  };
+
+  void list_landmarks(const PoseSolution& solution, std::span<const double> beliefs);
+  void add_landmarks(const PoseState::Matrix& covariance, Integrity& integrity);
+  void add_instruments(const PoseSolution& solution, const PoseState::Matrix& covariance, Integrity& integrity);
+  void add_prediction(const PoseSolution& solution, const PoseState::Matrix& covariance, Integrity& integrity);
+  [[nodiscard]] ProbabilityInterval unmonitored() const;
+  [[nodiscard]] double excess(double ProbabilityInterval::*end, double Hypothesis::*separation,
+                              double Hypothesis::*sigma, double level) const;
+  [[nodiscard]] double level_for(double risk, double ProbabilityInterval::*end, double Hypothesis::*separation,
+                                 double Hypothesis::*sigma, double most) const;
+
+  IntegrityParams params_;
+  std::vector<Landmark> landmarks_;
+  std::vector<Eigen::Matrix<double, PoseState::kSize, 2>> by_landmark_;  ///< P H^T of each
+  std::vector<Hypothesis> hypotheses_;
+};
+
+}  // namespace credo::localization

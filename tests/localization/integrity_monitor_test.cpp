@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "localization/integrity_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+namespace credo::localization {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using geometry::Pose2;
+
+constexpr double kPointSigma = 0.02;
+constexpr double kBearingSigma = 0.003;
+
+Observation point_at(int landmark, const Vector2d& at) {
+  Observation o;
+  o.kind = ObservationKind::kPoint;
+  o.landmark = landmark;
+  o.map_point = o.base_point = at;
+  o.noise = kPointSigma * kPointSigma * Matrix2d::Identity();
+  return o;
+}
+
+Observation bearing_to(int landmark, const Vector2d& at) {
+  Observation o;
+  o.kind = ObservationKind::kBearing;
+  o.landmark = landmark;
+  o.map_point = at;
+  o.base_angle = std::atan2(at.y(), at.x());
+  o.noise(0, 0) = kBearingSigma * kBearingSigma;
+  return o;
+}
+
+/// What is seen from the origin: points all around, and as many bearings; without noise.
+std::vector<Observation> surroundings(int points, int bearings) {
+  std::vector<Observation> seen;
+  for (int i = 0; i < points; ++i) {
+    const double angle = 0.3 + 2.0 * i;
+    seen.push_back(point_at(i, 3.0 * Vector2d(std::cos(angle), std::sin(angle))));
+  }
+  for (int i = 0; i < bearings; ++i) {
+    const double angle = 1.1 + 1.7 * i;
+    seen.push_back(bearing_to(points + i, 2.5 * Vector2d(std::cos(angle), std::sin(angle))));
+  }
+  return seen;
+}
+
+/// A prediction at the origin.
+SplitPose prediction(double sigma_m, double sigma_rad) {
+  SplitPose prior;
+  prior.independent = Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+  return prior;
+}
+
+class Monitor : public ::testing::Test {
+ protected:
+  Integrity assess(const std::vector<Observation>& seen, double belief = 0.9, std::span<const Alias> aliases = {}) {
+    solution_ = PoseSolver(sensors::Rig{}).solve(prior_, seen);
+    return IntegrityMonitor(params_).assess(solution_, std::vector<double>(seen.size(), belief), aliases);
+  }
+  [[nodiscard]] double position_error() const { return solution_.pose.pose.translation().norm(); }
+
+  IntegrityParams params_;
+  SplitPose prior_ = prediction(0.1, 0.05);
+  PoseSolution solution_;
+};
+
+TEST_F(Monitor, WithoutFaultsTheLevelIsTheGaussianOne) {
+  params_.match_faults.fill({0.0, {0.0, 0.0}});
+  params_.instrument_fault = params_.prediction_fault = {0.0, 0.0};
+  const Integrity integrity = assess(surroundings(6, 6));
+  const double sigma = std::sqrt(solution_.pose.covariance()(0, 0));
+  const double k = std::sqrt(-2.0 * std::log(params_.risk));
+  EXPECT_NEAR(integrity.protection.position_high_m, k * sigma, 0.05 * k * sigma);
+  EXPECT_NEAR(integrity.protection.heading_high_rad, k * std::sqrt(solution_.pose.covariance()(2, 2)),
+              0.05 * k * std::sqrt(solution_.pose.covariance()(2, 2)));
+  EXPECT_EQ(integrity.protection.position_low_m, integrity.protection.position_high_m);
+  EXPECT_EQ(integrity.landmarks, 12);
+}
+
+TEST_F(Monitor, LeavingALandmarkOutGivesThePoseThatTheOthersGive) {
+  std::vector<Observation> seen = surroundings(5, 4);
+  seen[2].base_point += Vector2d(0.03, -0.02);  // little enough for every robust weight to be near 1
+  const Integrity integrity = assess(seen);
+  const Pose2 with = solution_.pose.pose;
+  seen.erase(seen.begin() + 2);
+  const PoseSolution without = PoseSolver(sensors::Rig{}).solve(prior_, seen);
+  const double separation = (without.pose.pose.translation() - with.translation()).norm();
+  const double sigma = std::sqrt(without.pose.covariance()(0, 0) - solution_.pose.covariance()(0, 0));
+  EXPECT_EQ(integrity.separated, 2);
+  EXPECT_NEAR(integrity.separation, separation / sigma / std::sqrt(3.0), 0.35 * integrity.separation);
+}
+
+TEST_F(Monitor, AWrongMatchIsFoundAndTheLevelCoversWhatItDoes) {
+  for (const double fault : {0.05, 0.1, 0.2, 0.4}) {
+    std::vector<Observation> seen = surroundings(4, 3);
+    seen[1].base_point += Vector2d(fault, fault);
+    const Integrity integrity = assess(seen);
+    EXPECT_EQ(integrity.separated, 1);
+    EXPECT_GT(integrity.separation, 1.2);
+    EXPECT_GT(integrity.protection.position_low_m, position_error());
+  }
+}
+
+TEST_F(Monitor, OverRandomFaultsOfOneOrTwoLandmarksTheErrorStaysBelowTheLevel) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  for (int run = 0; run < 500; ++run) {
+    std::vector<Observation> seen = surroundings(6, 5);
+    for (Observation& o : seen) {
+      o.base_point += kPointSigma * Vector2d(normal(random), normal(random)) * (o.kind == ObservationKind::kPoint);
+      o.base_angle += kBearingSigma * normal(random);
+    }
+    for (int fault = 0; fault < run % 3; ++fault) {
+      Observation& o = seen[static_cast<std::size_t>(run + 3 * fault) % seen.size()];
+      const double size = 0.02 + 0.3 * std::abs(normal(random));
+      if (o.kind == ObservationKind::kPoint)
+        o.base_point += size * Vector2d(normal(random), normal(random));
+      else
+        o.base_angle += 0.3 * size * normal(random);
+    }
+    const Integrity integrity = assess(seen);
+    EXPECT_LT(position_error(), integrity.protection.position_high_m) << "run " << run;
+    EXPECT_LT(std::abs(solution_.pose.pose.theta), integrity.protection.heading_high_rad) << "run " << run;
+    EXPECT_LE(integrity.protection.position_low_m, integrity.protection.position_high_m);
+  }
+}
+
+TEST_F(Monitor, MatchesOfLessBelievedTracksGiveWiderLevels) {
+  params_.match_faults = {{{0.0, {1e-3, 1e-2}}, {0.5, {1e-3, 5e-3}}, {0.7, {1e-3, 5e-3}}, {0.9, {1e-8, 1e-7}}}};
+  const double sure = assess(surroundings(4, 2), 0.95).protection.position_high_m;
+  const double unsure = assess(surroundings(4, 2), 0.75).protection.position_high_m;
+  EXPECT_GT(unsure, 1.05 * sure);
+}
+
+TEST_F(Monitor, ManyMatchesThatAreOftenWrongGiveNoLevelAtAll) {
+  params_.match_faults.fill({0.0, {1e-3, 0.05}});
+  const Integrity integrity = assess(surroundings(12, 12));
+  EXPECT_TRUE(std::isfinite(integrity.protection.position_low_m));
+  EXPECT_TRUE(std::isinf(integrity.protection.position_high_m));
+}
+
+TEST_F(Monitor, OneLandmarkAloneIsWorthWhatThePredictionIs) {
+  params_.prediction_fault = {0.0, 0.0};
+  prior_ = prediction(0.05, 0.02);
+  const Integrity integrity = assess({point_at(0, {2, 0})});
+  EXPECT_GT(integrity.protection.position_high_m, 3.0 * 0.05);
+  EXPECT_LT(integrity.protection.position_high_m, 6.0 * 0.05);
+}
+
+TEST_F(Monitor, CameraAndRangeFinderThatDisagreeAreTold) {
+  std::vector<Observation> seen = surroundings(6, 6);
+  EXPECT_LT(assess(seen).instrument_separation, 0.2);
+  for (Observation& o : seen)
+    if (o.kind == ObservationKind::kPoint) o.base_point += Vector2d(0.06, 0.0);
+  EXPECT_GT(assess(seen).instrument_separation, 2.0);
+}
+
+TEST_F(Monitor, WheelsThatSlippedAreToldByTheLandmarks) {
+  prior_.pose = {0.5, 0.0, 0.0};
+  prior_.independent *= 0.2;
+  EXPECT_GT(assess(surroundings(8, 8)).instrument_separation, 2.0);
+}
+
+TEST_F(Monitor, AnAliasThatIsLikelyEnoughWidensTheLevelToItself) {
+  const std::array likely{Alias{.distance_m = 2.0, .turn_rad = 0.0, .probability = {1e-6, 1e-3}}};
+  const Integrity integrity = assess(surroundings(8, 8), 0.9, likely);
+  EXPECT_LT(integrity.protection.position_low_m, 0.5);
+  EXPECT_GE(integrity.protection.position_high_m, 2.0);
+  EXPECT_LT(integrity.protection.heading_high_rad, 0.1);
+}
+
+TEST_F(Monitor, LessRiskAsksForWiderLevels) {
+  double before = 0.0;
+  for (const double risk : {1e-3, 1e-4, 1e-5, 1e-6}) {
+    params_.risk = risk;
+    const double level = assess(surroundings(8, 8)).protection.position_low_m;
+    EXPECT_GT(level, before);
+    before = level;
+  }
+}
+
+TEST_F(Monitor, WithoutObservationsThePredictionAloneSpeaks) {
+  const Integrity integrity = assess({});
+  EXPECT_EQ(integrity.landmarks, 0);
+  EXPECT_GT(integrity.protection.position_high_m, 0.4);
+}
+
+}  // namespace
+}  // namespace credo::localization
