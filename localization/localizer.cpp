@@ -6,10 +6,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "localization/pose_history.hpp"
+#include "localization/scan_agreement.hpp"
+#include "localization/track_labels.hpp"
 
 namespace credo::localization {
 namespace {
@@ -36,13 +37,6 @@ SplitPose moved(const SplitPose& from, const PoseEstimate& motion) {
   return {independent.pose, independent.covariance, correlated.covariance};
 }
 
-/// The initial matching is given by hand (Clerentin et al., sec. 5): here, by the default's criteria from the initial
-/// pose.
-MapMatchingParams initial_matching(MapMatchingParams params) {
-  params.method = perception::Method::kDefault;
-  return params;
-}
-
 }  // namespace
 
 struct Localizer::State {
@@ -50,69 +44,47 @@ struct Localizer::State {
         const LocalizerParams& p)
       : params(p.with_method(p.method)),
         map(plan, params.map),
-        later_matcher(map, params.matching),
-        first_matcher(map, initial_matching(params.matching)),
-        solver(rig, params.solver),
-        scan_matcher(map, params.scan),
+        fitter(map, rig, params.fit),
+        scan_matcher(map, params.fit.scan),
         tracker(params.tracker),
+        labels(map, params.contradictions_allowed),
         monitor(params.integrity),
         absolute(initial.has_value() && !map.empty()),
         predictor(params.constant_velocity) {
     if (absolute) {
-      current.pose = initial->pose;
-      current.independent = initial->covariance;
+      fit.pose.pose = initial->pose;
+      fit.pose.independent = initial->covariance;
     } else {
-      current.independent = kOriginSigma * kOriginSigma * Matrix3d::Identity();
+      fit.pose.independent = kOriginSigma * kOriginSigma * Matrix3d::Identity();
     }
   }
 
   LocalizerParams params;
   LandmarkMap map;
-  MapMatcher later_matcher;
-  MapMatcher first_matcher;
-  PoseSolver solver;
+  SceneFitter fitter;
   ScanMatcher scan_matcher;
   tracking::Tracker tracker;
+  TrackLabels labels;
   IntegrityMonitor monitor;
-  bool absolute;  ///< poses are in the map frame, not relative to the start
-  SplitPose current;
-  PoseSolution solution;
-  LocalizationEvidence evidence;  ///< about `current`
-  int matched_before = 0;         ///< primitives that the latest fix rests on
-  int unchecked = 0;              ///< acquisitions since the scan last lay on the plan
+  bool absolute;           ///< poses are in the map frame, not relative to the start
+  SceneFit fit;            ///< the latest pose and what it rests on
+  SceneFit other;          ///< another one that is tried
+  int matched_before = 0;  ///< primitives that the latest fix rests on
+  int unchecked = 0;       ///< acquisitions since the scan last lay on the plan
   PoseHistory history;
   MotionPredictor predictor;
-  std::map<int, int> contradictions;  ///< in a row, by track id
+  std::vector<double> landmark_beliefs;  ///< by observation, a workspace
 
-  // One update's workspace.
-  std::vector<Observation> observations;
-  std::vector<bool> wall_in_use;
-  std::vector<int> unmatched;
-  std::vector<bool> used;  ///< by primitive
-  std::vector<LandmarkId> taken;
-  std::vector<MapMatch> new_matches;
-  std::vector<double> landmark_beliefs;  ///< by observation
-
-  [[nodiscard]] PoseEstimate estimate() const { return {current.pose, current.covariance()}; }
   [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
   [[nodiscard]] PoseEstimate predict(const Scene& scene, const std::optional<PoseEstimate>& motion);
   [[nodiscard]] Matrix3d doubt() const;
   void expect_landmarks(const SplitPose& predicted);
   void expect_young_tracks(const Pose2& step);
   [[nodiscard]] Pose2 likeliest_first_step(const Scene& scene);
-  void observe_tracks(const Scene& scene, const std::vector<Match>& matches);
-  void observe_landmark(const Scene& scene, int primitive, LandmarkId landmark, int track);
-  void list_unmatched(const Scene& scene);
-  void match_map(const Scene& scene, const SplitPose& predicted);
-  void solve(const Scene& scene, const SplitPose& predicted);
   void solve_motion(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
-  void label_tracks(const std::vector<Match>& matches);
-  void release(LandmarkId landmark, int keeper);
   void start_tracks(const Scene& scene);
-  void drop_contradicting_landmarks();
-  void forget_lost_tracks();
-  [[nodiscard]] LocalizationEvidence gather(const Scene& scene) const;
-  [[nodiscard]] double quality(const LocalizationEvidence& found, const Scene& scene) const;
+  void gather(const Scene& scene, SceneFit& of) const;
+  [[nodiscard]] double quality(const SceneFit& of, const Scene& scene) const;
   void search_pose(const Scene& scene, const SplitPose& predicted, bool odometry);
   bool match_anew(const Scene& scene, const SplitPose& expected);
   [[nodiscard]] Localization report(const Scene& scene) const;
@@ -141,7 +113,7 @@ PoseEstimate Localizer::State::predict(const Scene& scene, const std::optional<P
     if (predictor.empty()) step.pose = likeliest_first_step(scene);
     expect_young_tracks(step.pose);
   }
-  if (!paper) expect_landmarks(moved(current, step));
+  if (!paper) expect_landmarks(moved(fit.pose, step));
   return step;
 }
 
@@ -194,101 +166,29 @@ Pose2 Localizer::State::likeliest_first_step(const Scene& scene) {
   return best;
 }
 
-void Localizer::State::observe_landmark(const Scene& scene, int primitive, LandmarkId landmark, int track) {
-  const Primitive& seen = scene.primitives[static_cast<std::size_t>(primitive)];
-  const bool wall = map.is_wall(landmark);
-  if (wall != (seen.type == PrimitiveType::kWall)) return;
-  Observation o =
-      wall ? observe_wall(seen, map.wall(landmark), current.pose, map.uncertainty_m(), params.observations)
-           : observe_point(scene, seen, map.point(landmark), wall_in_use, map.uncertainty_m(), params.observations);
-  o.landmark = landmark;
-  o.primitive = primitive;
-  o.track = track;
-  observations.push_back(o);
-  if (!wall) return;
-  for (int s = seen.first_segment; s >= 0 && s <= seen.last_segment; ++s)
-    wall_in_use[static_cast<std::size_t>(s)] = true;
-}
-
-/// What the tracks continue; walls first, so that points know which walls are in use. A wall's track that goes on as a
-/// junction, or the reverse, is another landmark.
-void Localizer::State::observe_tracks(const Scene& scene, const std::vector<Match>& matches) {
-  for (const Match& match : matches)
-    if (match.transition) tracker.relabel(match.track, kNoLandmark);
-  observations.clear();
-  wall_in_use.assign(scene.segments.size(), false);
-  for (const bool walls : {true, false})
-    for (const Match& match : matches) {
-      const LandmarkId landmark = tracker.tracks()[static_cast<std::size_t>(match.track)].landmark;
-      const bool seen = !walls && std::any_of(observations.begin(), observations.end(),
-                                              [landmark](const Observation& o) { return o.landmark == landmark; });
-      if (landmark != kNoLandmark && map.is_wall(landmark) == walls && !seen)
-        observe_landmark(scene, match.primitive, landmark, match.track);
-    }
-}
-
-void Localizer::State::list_unmatched(const Scene& scene) {
-  unmatched.clear();
-  taken.clear();
-  used.assign(scene.primitives.size(), false);
-  for (const Observation& o : observations) {
-    used[static_cast<std::size_t>(o.primitive)] = true;
-    if (!map.is_wall(o.landmark)) taken.push_back(o.landmark);
-  }
-  for (std::size_t p = 0; p < used.size(); ++p)
-    if (!used[p]) unmatched.push_back(static_cast<int>(p));
-}
-
-void Localizer::State::solve(const Scene& scene, const SplitPose& predicted) {
-  solution = solver.solve(predicted, observations, scene.carry_covariance);
-  current = solution.pose;
-}
-
-/// What continues no track of the map is matched to the map, walls before points, from a pose that every round knows
-/// better.
-void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted) {
-  const auto add = [&](const std::vector<MapMatch>& found) {
-    for (const MapMatch& match : found) {
-      observe_landmark(scene, match.primitive, match.landmark, -1);
-      new_matches.push_back(match);
-    }
-    if (!found.empty()) solve(scene, predicted);
-    return !found.empty();
-  };
-  MapMatcher& matcher = history.empty() ? first_matcher : later_matcher;
-  for (int round = 0; round < params.matching_rounds; ++round) {
-    list_unmatched(scene);
-    const bool walls = add(matcher.match_walls(scene, unmatched, estimate()));
-    list_unmatched(scene);
-    const bool points = add(matcher.match_points(scene, unmatched, estimate(), taken));
-    if (!walls && !points) break;
-  }
-}
-
-/// What speaks for and against the current pose, the tracks left out.
-LocalizationEvidence Localizer::State::gather(const Scene& scene) const {
-  LocalizationEvidence gathered = gather_evidence(scene, map, observations, solution, params.evidence);
+/// What speaks for and against a pose, the tracks left out.
+void Localizer::State::gather(const Scene& scene, SceneFit& of) const {
+  of.evidence = gather_evidence(scene, map, of.observations, of.solution, params.fit.evidence);
   if (params.method == perception::Method::kDefault)
-    gathered.scan_agreement = scan_matcher.compare(scene.points, current.pose).share(params.scan);
-  return gathered;
+    of.evidence.scan_agreement = scan_matcher.compare(scene.points, of.pose.pose).share(params.fit.scan);
 }
 
 /// By which two ways to match a scene are compared: the belief in the pose and the share of what is seen that it
 /// explains.
-double Localizer::State::quality(const LocalizationEvidence& found, const Scene& scene) const {
-  const double share = found.matched / std::max(1.0, static_cast<double>(scene.primitives.size()));
-  return localization_belief(found, params.belief).mass.pignistic() + params.matched_share_weight * share;
+double Localizer::State::quality(const SceneFit& of, const Scene& scene) const {
+  const double share = of.evidence.matched / std::max(1.0, static_cast<double>(scene.primitives.size()));
+  return localization_belief(of.evidence, params.belief).mass.pignistic() + params.matched_share_weight * share;
 }
 
 /// Gathers the evidence about the pose. Primitives that were matched wrongly agree with the wrong pose that they make;
 /// the raw scan and the landmarks that should be in sight do not. Where these speak against the pose, everything is
 /// matched anew from the pose nearby from which the scan lies best on the plan, and what is believed more is kept.
 void Localizer::State::search_pose(const Scene& scene, const SplitPose& predicted, bool odometry) {
-  evidence = gather(scene);
-  if (!evidence.scan_agreement) return;
-  const bool off_plan = *evidence.scan_agreement < params.search_below;
-  const bool unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
-  const bool lost_sight = evidence.matched < params.search_matched_below * matched_before;
+  gather(scene, fit);
+  if (!fit.evidence.scan_agreement) return;
+  const bool off_plan = *fit.evidence.scan_agreement < params.search_below;
+  const bool unrecognised = recognition_belief(fit.evidence, params.belief).no > 0.0;
+  const bool lost_sight = fit.evidence.matched < params.search_matched_below * matched_before;
   if (!off_plan && !unrecognised && !lost_sight) return;
   SplitPose wide = predicted;
   wide.independent += doubt();
@@ -300,34 +200,21 @@ void Localizer::State::search_pose(const Scene& scene, const SplitPose& predicte
 /// Matches everything from the pose that the scan fits best about an expected one.
 /// \returns whether that is better than what was there, which is kept else.
 bool Localizer::State::match_anew(const Scene& scene, const SplitPose& expected) {
-  const Pose2 other = scan_matcher.search(scene.points, {expected.pose, expected.covariance()});
   const double position = params.searched_sigma_m * params.searched_sigma_m;
   const double turn = params.searched_sigma_rad * params.searched_sigma_rad;
-
-  const SplitPose pose_before = current;
-  std::vector<Observation> observations_before = std::exchange(observations, {});
-  std::vector<MapMatch> matches_before = std::exchange(new_matches, {});
-  const PoseSolution solution_before = solution;
-  wall_in_use.assign(scene.segments.size(), false);
-  solve(scene, {other, Eigen::Vector3d(position, position, turn).asDiagonal(), Matrix3d::Zero()});
-  match_map(scene, expected);
-  const LocalizationEvidence found = gather(scene);
-  if (quality(found, scene) > quality(evidence, scene) + params.search_gain) {
-    evidence = found;
-    contradictions.clear();
-    for (std::size_t t = 0; t < tracker.tracks().size(); ++t) tracker.relabel(static_cast<int>(t), kNoLandmark);
-    return true;
-  }
-  current = pose_before;
-  observations = std::move(observations_before);
-  new_matches = std::move(matches_before);
-  solution = solution_before;
-  return false;
+  const PoseEstimate found{scan_matcher.search(scene.points, {expected.pose, expected.covariance()}),
+                           Eigen::Vector3d(position, position, turn).asDiagonal()};
+  fitter.fit_anew(scene, found, expected, other);
+  gather(scene, other);
+  if (!(quality(other, scene) > quality(fit, scene) + params.search_gain)) return false;
+  std::swap(fit, other);
+  labels.forget_all(tracker);
+  return true;
 }
 
 /// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
 void Localizer::State::solve_motion(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion) {
-  observations.clear();
+  fit.observations.clear();
   if (history.empty()) return;
   for (const Match& match : matches) {
     const Track& track = tracker.tracks()[static_cast<std::size_t>(match.track)];
@@ -335,85 +222,35 @@ void Localizer::State::solve_motion(const Scene& scene, const std::vector<Match>
     if (track.last_seen_time != history.latest().time || now.bearing_only || track.last_seen.bearing_only ||
         (now.type == PrimitiveType::kWall) != (track.last_seen.type == PrimitiveType::kWall))
       continue;
-    observations.push_back(observe_again(now, track.last_seen, params.observations));
-    observations.back().primitive = match.primitive;
+    fit.observations.push_back(observe_again(now, track.last_seen, params.fit.observations));
+    fit.observations.back().primitive = match.primitive;
   }
-  const SplitPose prior{motion.pose, motion.covariance, Matrix3d::Zero()};
-  solution = solver.solve(prior, observations, scene.carry_covariance);
-  current = moved(current, {solution.pose.pose, solution.pose.covariance()});
-}
-
-/// A point of the map is one thing: a track that it was given to before and that is not seen now lets go of it.
-void Localizer::State::release(LandmarkId landmark, int keeper) {
-  if (map.is_wall(landmark)) return;
-  for (std::size_t t = 0; t < tracker.tracks().size(); ++t)
-    if (tracker.tracks()[t].landmark == landmark && static_cast<int>(t) != keeper)
-      tracker.relabel(static_cast<int>(t), kNoLandmark);
-}
-
-/// A track that had no landmark, and whose primitive has now been matched to the map, gets it.
-void Localizer::State::label_tracks(const std::vector<Match>& matches) {
-  for (MapMatch& found : new_matches)
-    for (const Match& match : matches)
-      if (match.primitive == found.primitive) {
-        tracker.relabel(match.track, found.landmark);
-        release(found.landmark, match.track);
-        for (Observation& o : observations)
-          if (o.primitive == found.primitive) o.track = match.track;
-        found.primitive = -1;
-        break;
-      }
-  std::erase_if(new_matches, [](const MapMatch& match) { return match.primitive < 0; });
+  const SplitPose solved = fitter.solve_motion(scene, motion, fit);
+  fit.pose = moved(fit.pose, {solved.pose, solved.covariance()});
 }
 
 void Localizer::State::start_tracks(const Scene& scene) {
   const std::vector<int>& appeared = tracker.appeared();
   for (const int primitive : appeared) {
-    const auto found = std::find_if(new_matches.begin(), new_matches.end(),
+    const auto found = std::find_if(fit.new_matches.begin(), fit.new_matches.end(),
                                     [primitive](const MapMatch& match) { return match.primitive == primitive; });
-    if (found == new_matches.end()) {
+    if (found == fit.new_matches.end()) {
       if (params.method == perception::Method::kDefault || !absolute) tracker.start(scene, primitive, 0.0, kNoLandmark);
       continue;
     }
     // Clerentin et al., sec. 5: the initial matching is given with the mass (.5, 0, .5).
     const std::optional<int> track = history.empty() ? tracker.start_given(scene, primitive, found->landmark)
                                                      : tracker.start(scene, primitive, found->yes, found->landmark);
-    if (track) release(found->landmark, *track);
-    for (Observation& o : observations)
+    if (track) labels.release(found->landmark, *track, tracker);
+    for (Observation& o : fit.observations)
       if (o.primitive == primitive) o.track = track.value_or(-1);
   }
-}
-
-/// A wrong match shows as a residual that the pose does not explain. Once may be bad luck; a track that goes on is
-/// somebody else.
-void Localizer::State::drop_contradicting_landmarks() {
-  for (std::size_t k = 0; k < solution.outlier.size(); ++k) {
-    const int index = observations[k].track;
-    if (index < 0) continue;
-    const int id = tracker.tracks()[static_cast<std::size_t>(index)].id;
-    if (!solution.outlier[k]) {
-      contradictions.erase(id);
-    } else if (++contradictions[id] > params.contradictions_allowed) {
-      tracker.relabel(index, kNoLandmark);
-      contradictions.erase(id);
-    }
-  }
-}
-
-/// What is counted in a row is forgotten with its track.
-void Localizer::State::forget_lost_tracks() {
-  const std::vector<Track>& tracks = tracker.tracks();
-  std::erase_if(contradictions, [&tracks](const auto& entry) {
-    return std::none_of(tracks.begin(), tracks.end(), [&entry](const Track& track) {
-      return track.id == entry.first && track.state == tracking::TrackState::kTracked;
-    });
-  });
 }
 
 Localization Localizer::State::report(const Scene& scene) const {
   Localization fix;
   fix.time = scene.time;
-  fix.estimate = estimate();
+  fix.estimate = fit.estimate();
   fix.tracked = static_cast<int>(tracker.tracks().size());
   fix.detected = static_cast<int>(scene.primitives.size());
   if (!absolute)
@@ -426,17 +263,18 @@ Localization Localizer::State::report(const Scene& scene) const {
 Integrity Localizer::State::watch() {
   constexpr double kUntracked = 0.5;  // BetP of not knowing
   landmark_beliefs.clear();
-  for (const Observation& o : observations) {
+  for (const Observation& o : fit.observations) {
     const bool tracked = o.track >= 0;
     landmark_beliefs.push_back(tracked ? tracker.tracks()[static_cast<std::size_t>(o.track)].existence.pignistic()
                                        : kUntracked);
   }
-  return monitor.assess(solution, landmark_beliefs);
+  return monitor.assess(fit.solution, landmark_beliefs);
 }
 
 /// Belief and status of an absolute pose. Where nothing is seen there is no evidence against it: what was believed
 /// fades into not knowing.
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
+  LocalizationEvidence& evidence = fit.evidence;
   evidence.tracks = tracker.tracks();
   const bool on_plan = evidence.scan_agreement && agreement_belief(evidence, params.belief).no < 0.5;
   unchecked = on_plan ? 0 : unchecked + 1;
@@ -447,7 +285,7 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   fix.belief = belief.mass;
   fix.conflict = belief.conflict;
   fix.matched = matched_before = evidence.matched;
-  fix.innovation = solution.prior_mahalanobis_squared;
+  fix.innovation = fit.solution.prior_mahalanobis_squared;
   if (fix.innovation > params.status.max_innovation)
     fix.belief = evidence::discount(fix.belief, params.contradiction_reliability);
   if (params.method == perception::Method::kDefault && unchecked > params.checked_for)
@@ -457,8 +295,8 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   const Integrity integrity = watch();
   fix.protection = integrity.protection;
   if (fix.unrecognised || fix.off_plan) {
-    current.independent += doubt();
-    fix.estimate = estimate();
+    fit.pose.independent += doubt();
+    fix.estimate = fit.estimate();
   }
   judge(fix, scene.camera_seen, scene.range_finder_seen, params.status);
 }
@@ -495,25 +333,24 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   // 2. Associate the primitives with the tracks.
   const std::vector<Match>& matches = s.tracker.associate(scene);
 
-  s.new_matches.clear();
+  s.fit.new_matches.clear();
   if (s.absolute) {
-    // 3. The pose from what is matched.
-    const SplitPose predicted = s.history.empty() ? s.current : moved(s.current, step);
-    s.current = predicted;
-    s.observe_tracks(scene, matches);
-    s.solve(scene, predicted);
-    // 4. The map for what has appeared, and the pose again.
-    s.match_map(scene, predicted);
+    // A wall's track that goes on as a junction, or the reverse, is another landmark.
+    for (const Match& match : matches)
+      if (match.transition) s.tracker.relabel(match.track, kNoLandmark);
+    // 3. The pose from what is matched; 4. the map for what has appeared, and the pose again.
+    const SplitPose predicted = s.history.empty() ? s.fit.pose : moved(s.fit.pose, step);
+    s.fitter.fit(scene, s.tracker.tracks(), matches, predicted, s.history.empty(), s.fit);
     s.search_pose(scene, predicted, motion.has_value());
-    s.label_tracks(matches);
+    s.labels.label(matches, s.tracker, s.fit);
   } else {
     s.solve_motion(scene, matches, step);
   }
   // 5. Start tracks; let go of landmarks that contradict the pose.
   s.start_tracks(scene);
-  if (s.absolute) s.drop_contradicting_landmarks();
+  if (s.absolute) s.labels.drop_contradicting(s.fit, s.tracker);
   s.tracker.update(scene);
-  s.forget_lost_tracks();
+  s.labels.forget_lost(s.tracker.tracks());
 
   // 6. Beliefs and status.
   Localization fix = s.report(scene);
@@ -524,13 +361,13 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
 
 evidence::Believed<PoseEstimate> Localizer::pose_at(Timestamp time) const {
   const State& s = *state_;
-  if (s.history.empty()) return {s.estimate(), evidence::BinaryMass::vacuous()};
+  if (s.history.empty()) return {s.fit.estimate(), evidence::BinaryMass::vacuous()};
   return s.history.pose_at(time);
 }
 
 const std::vector<Track>& Localizer::tracks() const { return state_->tracker.tracks(); }
-const std::vector<Observation>& Localizer::observations() const { return state_->observations; }
-const PoseSolution& Localizer::solution() const { return state_->solution; }
+const std::vector<Observation>& Localizer::observations() const { return state_->fit.observations; }
+const PoseSolution& Localizer::solution() const { return state_->fit.solution; }
 const LandmarkMap& Localizer::map() const { return state_->map; }
 const LocalizerParams& Localizer::params() const { return state_->params; }
 

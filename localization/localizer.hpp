@@ -11,11 +11,8 @@
 #include "localization/integrity_monitor.hpp"
 #include "localization/localization.hpp"
 #include "localization/localization_belief.hpp"
-#include "localization/map_matching.hpp"
 #include "localization/motion_prediction.hpp"
-#include "localization/observations.hpp"
-#include "localization/pose_solver.hpp"
-#include "localization/scan_agreement.hpp"
+#include "localization/scene_fit.hpp"
 #include "tracking/tracker.hpp"
 
 namespace credo::localization {
@@ -24,16 +21,11 @@ struct LocalizerParams {
   perception::Method method = perception::Method::kDefault;
   tracking::TrackerParams tracker;
   LandmarkMapParams map;
-  MapMatchingParams matching;
-  ObservationParams observations;
-  PoseSolverParams solver;
-  ScanAgreementParams scan;
-  LocalizationEvidenceParams evidence;
+  SceneFitParams fit;
   LocalizationBeliefParams belief;
   IntegrityParams integrity;
   StatusParams status;
   ConstantVelocityParams constant_velocity;
-  int matching_rounds = 3;  ///< map matching and pose in turn: each round knows the pose better
   // When a pose is searched nearby, by the raw scan: where so little of the scan lies on the plan, or
   double search_below = 0.75;
   double search_matched_below = 0.7;       ///< so few are matched of those that the fix before rested on.

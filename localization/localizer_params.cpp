@@ -10,8 +10,8 @@ namespace credo::localization {
 
 LocalizerParams LocalizerParams::with_method(perception::Method chosen) const {
   LocalizerParams params = *this;
-  params.method = params.tracker.method = params.matching.method = chosen;
-  params.evidence.method = params.belief.method = chosen;
+  params.method = params.tracker.method = params.belief.method = chosen;
+  params.fit.matching.method = params.fit.evidence.method = chosen;
   params.map.cut_walls_at_points = chosen == perception::Method::kPaper;
   return params;
 }
@@ -20,34 +20,34 @@ void check(const LocalizerParams& params) {
   const auto require = [](bool good, const char* what) {
     if (!good) throw std::invalid_argument(std::string("localizer: ") + what);
   };
-  const MapMatchingParams& m = params.matching;
-  evidence::check(m.wall_angle, "localizer: matching.wall_angle");
-  evidence::check(m.wall_across, "localizer: matching.wall_across");
-  evidence::check(m.wall_excess, "localizer: matching.wall_excess");
-  evidence::check(m.point_range, "localizer: matching.point_range");
-  evidence::check(m.point_azimuth, "localizer: matching.point_azimuth");
-  evidence::check(m.paper_wall_angle_deg, "localizer: matching.paper_wall_angle_deg");
-  evidence::check(m.paper_wall_length_m, "localizer: matching.paper_wall_length_m");
-  evidence::check(m.paper_wall_center_m, "localizer: matching.paper_wall_center_m");
-  evidence::check(m.paper_point_range_m, "localizer: matching.paper_point_range_m");
-  evidence::check(m.paper_point_azimuth_deg, "localizer: matching.paper_point_azimuth_deg");
+  const MapMatchingParams& m = params.fit.matching;
+  evidence::check(m.wall_angle, "localizer: fit.matching.wall_angle");
+  evidence::check(m.wall_across, "localizer: fit.matching.wall_across");
+  evidence::check(m.wall_excess, "localizer: fit.matching.wall_excess");
+  evidence::check(m.point_range, "localizer: fit.matching.point_range");
+  evidence::check(m.point_azimuth, "localizer: fit.matching.point_azimuth");
+  evidence::check(m.paper_wall_angle_deg, "localizer: fit.matching.paper_wall_angle_deg");
+  evidence::check(m.paper_wall_length_m, "localizer: fit.matching.paper_wall_length_m");
+  evidence::check(m.paper_wall_center_m, "localizer: fit.matching.paper_wall_center_m");
+  evidence::check(m.paper_point_range_m, "localizer: fit.matching.paper_point_range_m");
+  evidence::check(m.paper_point_azimuth_deg, "localizer: fit.matching.paper_point_azimuth_deg");
   evidence::check(params.belief.count, "localizer: belief.count");
   evidence::check(params.belief.ratio, "localizer: belief.ratio");
   evidence::check(params.belief.recognised, "localizer: belief.recognised");
   evidence::check(params.belief.scan_agreement, "localizer: belief.scan_agreement");
-  require(params.matching_rounds >= 1, "matching_rounds has to be at least 1");
-  require(params.solver.robust_scale > 0.0, "solver.robust_scale has to be positive");
-  require(params.solver.reweightings >= 1, "solver.reweightings has to be at least 1");
-  require(params.solver.outlier_probability > 0.0 && params.solver.outlier_probability < 1.0,
-          "solver.outlier_probability has to be in (0, 1)");
-  const ScanAgreementParams& scan = params.scan;
+  require(params.fit.matching_rounds >= 1, "fit.matching_rounds has to be at least 1");
+  require(params.fit.solver.robust_scale > 0.0, "fit.solver.robust_scale has to be positive");
+  require(params.fit.solver.reweightings >= 1, "fit.solver.reweightings has to be at least 1");
+  require(params.fit.solver.outlier_probability > 0.0 && params.fit.solver.outlier_probability < 1.0,
+          "fit.solver.outlier_probability has to be in (0, 1)");
+  const ScanAgreementParams& scan = params.fit.scan;
   require(scan.most_points >= 1 && scan.least_points >= 1,
-          "scan.most_points and scan.least_points have to be positive");
+          "fit.scan.most_points and fit.scan.least_points have to be positive");
   require(scan.on_plan_m > 0.0 && scan.on_plan_sigmas >= 0.0 && scan.before_weight >= 0.0,
-          "scan: the tolerance has to be positive, its other numbers may not be negative");
+          "fit.scan: the tolerance has to be positive, its other numbers may not be negative");
   require(scan.search_step_m >= 0.01 && scan.search_step_rad >= 0.002 && scan.search_at_most_m <= 10.0 &&
               scan.search_at_most_rad <= 3.2,
-          "scan: a search has steps of at least 0.01 m and 0.002 rad and reaches 10 m and half a turn at most");
+          "fit.scan: a search has steps of at least 0.01 m and 0.002 rad and reaches 10 m and half a turn at most");
   for (const double reliability :
        {params.unchecked_reliability, params.belief.wall_reliability, params.belief.other_reliability,
         params.contradiction_reliability, params.blind_reliability})

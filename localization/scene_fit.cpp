@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "localization/scene_fit.hpp"
+
+#include <algorithm>
+
+namespace credo::localization {
+namespace {
+
+using perception::Primitive;
+using perception::PrimitiveType;
+using perception::Scene;
+using tracking::kNoLandmark;
+using tracking::LandmarkId;
+using tracking::Match;
+
+MapMatchingParams given_matching(MapMatchingParams params) {
+  params.method = perception::Method::kDefault;
+  return params;
+}
+
+}  // namespace
+
+SceneFitter::SceneFitter(const LandmarkMap& map, const sensors::Rig& rig, const SceneFitParams& params)
+    : map_(&map),
+      params_(params),
+      matcher_(map, params.matching),
+      first_matcher_(map, given_matching(params.matching)),
+      solver_(rig, params.solver) {}
+
+void SceneFitter::fit(const Scene& scene, std::span<const tracking::Track> tracks, std::span<const Match> matches,
+                      const SplitPose& expected, bool given, SceneFit& fit) {
+  fit.pose = expected;
+  fit.new_matches.clear();
+  observe_tracks(scene, tracks, matches, fit);
+  solve(scene, expected, fit);
+  match_map(scene, expected, given ? first_matcher_ : matcher_, fit);
+}
+
+void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& from, const SplitPose& expected,
+                           SceneFit& fit) {
+  fit.observations.clear();
+  fit.new_matches.clear();
+  wall_in_use_.assign(scene.segments.size(), false);
+  solve(scene, {from.pose, from.covariance, Eigen::Matrix3d::Zero()}, fit);
+  match_map(scene, expected, matcher_, fit);
+}
+
+SplitPose SceneFitter::solve_motion(const Scene& scene, const geometry::PoseEstimate& motion, SceneFit& fit) {
+  fit.solution = solver_.solve({motion.pose, motion.covariance, Eigen::Matrix3d::Zero()}, fit.observations,
+                               scene.carry_covariance);
+  return fit.solution.pose;
+}
+
+void SceneFitter::observe_landmark(const Scene& scene, int primitive, LandmarkId landmark, int track, SceneFit& fit) {
+  const Primitive& seen = scene.primitives[static_cast<std::size_t>(primitive)];
+  const bool wall = map_->is_wall(landmark);
+  if (wall != (seen.type == PrimitiveType::kWall)) return;
+  const double plan = map_->uncertainty_m();
+  Observation o = wall ? observe_wall(seen, map_->wall(landmark), fit.pose.pose, plan, params_.observations)
+                       : observe_point(scene, seen, map_->point(landmark), wall_in_use_, plan, params_.observations);
+  o.landmark = landmark;
+  o.primitive = primitive;
+  o.track = track;
+  fit.observations.push_back(o);
+  if (!wall) return;
+  for (int s = seen.first_segment; s >= 0 && s <= seen.last_segment; ++s)
+    wall_in_use_[static_cast<std::size_t>(s)] = true;
+}
+
+/// What the tracks continue; walls first, so that points know which walls are in use.
+void SceneFitter::observe_tracks(const Scene& scene, std::span<const tracking::Track> tracks,
+                                 std::span<const Match> matches, SceneFit& fit) {
+  fit.observations.clear();
+  wall_in_use_.assign(scene.segments.size(), false);
+  for (const bool walls : {true, false})
+    for (const Match& match : matches) {
+      const LandmarkId landmark = tracks[static_cast<std::size_t>(match.track)].landmark;
+      const bool seen = !walls && std::any_of(fit.observations.begin(), fit.observations.end(),
+                                              [landmark](const Observation& o) { return o.landmark == landmark; });
+      if (landmark != kNoLandmark && map_->is_wall(landmark) == walls && !seen)
+        observe_landmark(scene, match.primitive, landmark, match.track, fit);
+    }
+}
+
+void SceneFitter::list_unmatched(const Scene& scene, const SceneFit& fit) {
+  unmatched_.clear();
+  taken_.clear();
+  used_.assign(scene.primitives.size(), false);
+  for (const Observation& o : fit.observations) {
+    used_[static_cast<std::size_t>(o.primitive)] = true;
+    if (!map_->is_wall(o.landmark)) taken_.push_back(o.landmark);
+  }
+  for (std::size_t p = 0; p < used_.size(); ++p)
+    if (!used_[p]) unmatched_.push_back(static_cast<int>(p));
+}
+
+void SceneFitter::solve(const Scene& scene, const SplitPose& expected, SceneFit& fit) {
+  fit.solution = solver_.solve(expected, fit.observations, scene.carry_covariance);
+  fit.pose = fit.solution.pose;
+}
+
+void SceneFitter::match_map(const Scene& scene, const SplitPose& expected, MapMatcher& matcher, SceneFit& fit) {
+  const auto add = [&](const std::vector<MapMatch>& found) {
+    for (const MapMatch& match : found) {
+      observe_landmark(scene, match.primitive, match.landmark, -1, fit);
+      fit.new_matches.push_back(match);
+    }
+    if (!found.empty()) solve(scene, expected, fit);
+    return !found.empty();
+  };
+  for (int round = 0; round < params_.matching_rounds; ++round) {
+    list_unmatched(scene, fit);
+    const bool walls = add(matcher.match_walls(scene, unmatched_, fit.estimate()));
+    list_unmatched(scene, fit);
+    const bool points = add(matcher.match_points(scene, unmatched_, fit.estimate(), taken_));
+    if (!walls && !points) break;
+  }
+}
+
+}  // namespace credo::localization

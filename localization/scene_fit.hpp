@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "localization/landmark_map.hpp"
+#include "localization/localization_evidence.hpp"
+#include "localization/map_matching.hpp"
+#include "localization/observations.hpp"
+#include "localization/pose_solver.hpp"
+#include "localization/scan_agreement.hpp"
+#include "tracking/track.hpp"
+
+namespace credo::localization {
+
+struct SceneFitParams {
+  MapMatchingParams matching;
+  ObservationParams observations;
+  PoseSolverParams solver;
+  ScanAgreementParams scan;
+  LocalizationEvidenceParams evidence;
+  int matching_rounds = 3;  ///< map matching and pose in turn: each round knows the pose better
+};
+
+/// A pose and what it rests on in one scene.
+struct SceneFit {
+  SplitPose pose;
+  PoseSolution solution;
+  std::vector<Observation> observations;  ///< that the solution is made of
+  std::vector<MapMatch> new_matches;      ///< of primitives whose tracks had no landmark
+  LocalizationEvidence evidence;          ///< about the pose; without the tracks
+
+  [[nodiscard]] geometry::PoseEstimate estimate() const { return {pose.pose, pose.covariance()}; }
+};
+
+/// From a scene and an expected pose to the pose that the plan gives: what the tracks continue, then what the map has
+/// for the rest, and the pose in turn (Clerentin et al., sec. 4.2). Keeps its memory.
+class SceneFitter {
+ public:
+  /// \param map  must outlive this
+  SceneFitter(const LandmarkMap& map, const sensors::Rig& rig, const SceneFitParams& params);
+
+  /// \param matches   of the tracks with the scene's primitives
+  /// \param expected  its covariance is positive definite
+  /// \param given     the first scene: its matching is given by hand (Clerentin et al., sec. 5); here, by the default's
+  ///   criteria
+  void fit(const perception::Scene& scene, std::span<const tracking::Track> tracks,
+           std::span<const tracking::Match> matches, const SplitPose& expected, bool given, SceneFit& fit);
+
+  /// Everything matched anew, whatever the tracks say.
+  /// \param from      where matching starts
+  /// \param expected  what the pose is held against; it may be far less sure
+  void fit_anew(const perception::Scene& scene, const geometry::PoseEstimate& from, const SplitPose& expected,
+                SceneFit& fit);
+
+  /// The motion between two scenes, from observe_again() of what was seen in both; with odometry as the prior.
+  [[nodiscard]] SplitPose solve_motion(const perception::Scene& scene, const geometry::PoseEstimate& motion,
+                                       SceneFit& fit);
+
+ private:
+  void observe_tracks(const perception::Scene& scene, std::span<const tracking::Track> tracks,
+                      std::span<const tracking::Match> matches, SceneFit& fit);
+  void observe_landmark(const perception::Scene& scene, int primitive, tracking::LandmarkId landmark, int track,
+                        SceneFit& fit);
+  void list_unmatched(const perception::Scene& scene, const SceneFit& fit);
+  void match_map(const perception::Scene& scene, const SplitPose& expected, MapMatcher& matcher, SceneFit& fit);
+  void solve(const perception::Scene& scene, const SplitPose& expected, SceneFit& fit);
+
+  const LandmarkMap* map_;
+  SceneFitParams params_;
+  MapMatcher matcher_;
+  MapMatcher first_matcher_;
+  PoseSolver solver_;
+
+  // One fit's workspace.
+  std::vector<bool> wall_in_use_;  ///< by segment
+  std::vector<int> unmatched_;     ///< primitives
+  std::vector<bool> used_;         ///< by primitive
+  std::vector<tracking::LandmarkId> taken_;
+};
+
+}  // namespace credo::localization
