@@ -17,25 +17,31 @@ bool beyond(double difference, double sigma, double limit, double sigmas) {
   return std::abs(difference) > std::max(limit, sigmas * sigma);
 }
 
-bool wrong_wall(const perception::Primitive& seen, const localization::WallLandmark& wall,
+bool wrong_wall(const perception::Primitive& seen, const localization::WallLandmark& wall, double plan_uncertainty_m,
                 const geometry::Pose2& T_map_base, const MatchCheckParams& params) {
   const Eigen::Vector2d middle = T_map_base * seen.line.centroid;
   const double across = wall.normal().dot(middle - wall.extent.a);
   const double wall_angle = std::atan2(wall.direction.y(), wall.direction.x());
   // Lines have no sense of direction: modulo pi.
   const double turn = std::remainder(T_map_base.theta + seen.line.angle - wall_angle, std::numbers::pi);
-  return beyond(across, seen.line.sigma_across, params.distance_m, params.sigmas) ||
-         beyond(turn, seen.line.sigma_angle, geometry::to_radians(params.angle_deg), params.sigmas);
+  const double along = std::clamp((middle - wall.extent.a).dot(wall.direction), 0.0, wall.length_m);
+  const Eigen::Matrix2d plan = wall.plan_covariance(along, plan_uncertainty_m);
+  const double sigma_across = std::hypot(seen.line.sigma_across, std::sqrt(plan(0, 0)));
+  const double sigma_turn = std::hypot(seen.line.sigma_angle, std::sqrt(plan(1, 1)));
+  return beyond(across, sigma_across, params.distance_m, params.sigmas) ||
+         beyond(turn, sigma_turn, geometry::to_radians(params.angle_deg), params.sigmas);
 }
 
 bool wrong_point(const perception::Primitive& seen, const Eigen::Vector2d& camera_origin,
-                 const localization::PointLandmark& point, const geometry::Pose2& T_map_base,
+                 const localization::PointLandmark& point, double plan_uncertainty_m, const geometry::Pose2& T_map_base,
                  const MatchCheckParams& params) {
   const Eigen::Vector2d expected = T_map_base.inverse() * point.position;
   const Eigen::Vector2d ray = expected - (seen.bearing_only ? camera_origin : Eigen::Vector2d::Zero());
   const double azimuth = geometry::angle_difference(seen.azimuth, std::atan2(ray.y(), ray.x()));
-  if (beyond(azimuth, seen.sigma_azimuth, geometry::to_radians(params.angle_deg), params.sigmas)) return true;
-  return !seen.bearing_only && beyond(seen.range_m - ray.norm(), seen.sigma_range_m, params.distance_m, params.sigmas);
+  const double sigma_azimuth = std::hypot(seen.sigma_azimuth, plan_uncertainty_m / std::max(ray.norm(), 1e-3));
+  if (beyond(azimuth, sigma_azimuth, geometry::to_radians(params.angle_deg), params.sigmas)) return true;
+  const double sigma_range = std::hypot(seen.sigma_range_m, plan_uncertainty_m);
+  return !seen.bearing_only && beyond(seen.range_m - ray.norm(), sigma_range, params.distance_m, params.sigmas);
 }
 
 }  // namespace
@@ -43,19 +49,21 @@ bool wrong_point(const perception::Primitive& seen, const Eigen::Vector2d& camer
 bool is_wrong_match(const perception::Primitive& seen, const Eigen::Vector2d& camera_origin,
                     const localization::LandmarkMap& map, tracking::LandmarkId landmark,
                     const geometry::Pose2& T_map_base, const MatchCheckParams& params) {
-  return map.is_wall(landmark) ? wrong_wall(seen, map.wall(landmark), T_map_base, params)
-                               : wrong_point(seen, camera_origin, map.point(landmark), T_map_base, params);
+  const double plan = map.uncertainty_m();
+  return map.is_wall(landmark) ? wrong_wall(seen, map.wall(landmark), plan, T_map_base, params)
+                               : wrong_point(seen, camera_origin, map.point(landmark), plan, T_map_base, params);
 }
 
-MatchCounts check_matches(const perception::Scene& scene, std::span<const tracking::Track> tracks,
-                          const localization::LandmarkMap& map, const geometry::Pose2& T_map_base,
-                          const MatchCheckParams& params) {
+MatchCounts check_matches(const perception::Scene& scene, std::span<const localization::Observation> observations,
+                          const localization::PoseSolution& solution, const localization::LandmarkMap& map,
+                          const geometry::Pose2& T_map_base, const MatchCheckParams& params) {
   MatchCounts counts;
-  for (const tracking::Track& track : tracks) {
-    if (track.state != tracking::TrackState::kTracked || track.landmark == tracking::kNoLandmark) continue;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    if (solution.outlier[k]) continue;
+    const perception::Primitive& seen = scene.primitives[static_cast<std::size_t>(observations[k].primitive)];
     ++counts.matches;
     counts.wrong +=
-        is_wrong_match(track.last_seen, scene.camera_origin, map, track.landmark, T_map_base, params) ? 1 : 0;
+        is_wrong_match(seen, scene.camera_origin, map, observations[k].landmark, T_map_base, params) ? 1 : 0;
   }
   return counts;
 }

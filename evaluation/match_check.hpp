@@ -6,8 +6,8 @@
 #include <span>
 
 #include "localization/landmark_map.hpp"
+#include "localization/pose_solver.hpp"
 #include "perception/scene.hpp"
-#include "tracking/track.hpp"
 
 namespace credo::evaluation {
 
@@ -17,7 +17,7 @@ struct MatchCheckParams {
   double distance_m = 0.1;
 };
 
-/// Tracks that were matched to a landmark and seen, and how many of them to a wrong one.
+/// Accepted matches of what was seen with landmarks, and how many of them are wrong.
 struct MatchCounts {
   long matches = 0;
   long wrong = 0;
@@ -33,15 +33,17 @@ struct MatchCounts {
 };
 
 /// Whether azimuth or range of a landmark, predicted from the true pose, differs from the observation by more than
-/// `sigmas` standard deviations and by more than `angle_deg` or `distance_m`. Of a wall it is the direction of its line
-/// and the distance across it.
+/// `sigmas` standard deviations of the two together (the observation's and the plan's) and by more than `angle_deg` or
+/// `distance_m`. Of a wall it is the direction of its line and the distance across it.
 /// \param T_map_base  the true pose at the time of the scene
 [[nodiscard]] bool is_wrong_match(const perception::Primitive& seen, const Eigen::Vector2d& camera_origin,
                                   const localization::LandmarkMap& map, tracking::LandmarkId landmark,
                                   const geometry::Pose2& T_map_base, const MatchCheckParams& params = {});
 
-/// Over the tracks that are seen in the scene and have a landmark.
-[[nodiscard]] MatchCounts check_matches(const perception::Scene& scene, std::span<const tracking::Track> tracks,
+/// Over the matches that a pose rests on; what the solver has rejected is not accepted and does not count.
+[[nodiscard]] MatchCounts check_matches(const perception::Scene& scene,
+                                        std::span<const localization::Observation> observations,
+                                        const localization::PoseSolution& solution,
                                         const localization::LandmarkMap& map, const geometry::Pose2& T_map_base,
                                         const MatchCheckParams& params = {});
 

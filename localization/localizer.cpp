@@ -77,6 +77,7 @@ struct Localizer::State {
 
   [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
   [[nodiscard]] PoseEstimate predict(const Scene& scene, const std::optional<PoseEstimate>& motion);
+  [[nodiscard]] PoseEstimate motion_to(const SplitPose& pose) const;
   [[nodiscard]] Matrix3d doubt() const;
   void expect_landmarks(const SplitPose& predicted);
   void expect_young_tracks(const Pose2& step);
@@ -107,14 +108,27 @@ PoseEstimate Localizer::State::predict(const Scene& scene, const std::optional<P
   if (!paper && !motion && !history.empty())
     step.pose.theta +=
         unforeseen_turn(tracker.tracks(), history.latest().time, scene, step.pose, params.constant_velocity);
-  tracker.predict(!paper && !history.empty() ? std::optional(step) : std::nullopt);
-  if (!absolute || history.empty()) return step;
-  if (paper) {
+  const bool follows_map = absolute && !history.empty();
+  if (paper || !follows_map) {
+    tracker.predict(!paper && !history.empty() ? std::optional(step) : std::nullopt);
+    if (!follows_map) return step;
     if (predictor.empty()) step.pose = likeliest_first_step(scene);
     expect_young_tracks(step.pose);
+    return step;
   }
-  if (!paper) expect_landmarks(moved(fit.pose, step));
+  // From two degrees beside the truth, many radial lines look like their neighbours.
+  const SplitPose sharpened = fitter.sharpen(scene, moved(fit.pose, step));
+  tracker.predict(motion_to(sharpened));
+  expect_landmarks(sharpened);
   return step;
+}
+
+/// The motion from the latest pose to another one, which knows nothing of it.
+PoseEstimate Localizer::State::motion_to(const SplitPose& pose) const {
+  Matrix3d to_base = Matrix3d::Identity();
+  to_base.topLeftCorner<2, 2>() = fit.pose.pose.rotation().transpose();
+  return {fit.pose.pose.inverse() * pose.pose,
+          to_base * (fit.pose.covariance() + pose.covariance()) * to_base.transpose()};
 }
 
 /// What is added to the covariance of a pose from which the plan is not recognised: wheels may have slipped.

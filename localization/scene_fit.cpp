@@ -47,6 +47,17 @@ void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& fro
   match_map(scene, expected, matcher_, fit);
 }
 
+SplitPose SceneFitter::sharpen(const Scene& scene, const SplitPose& expected) {
+  by_walls_.pose = expected;
+  by_walls_.observations.clear();
+  wall_in_use_.assign(scene.segments.size(), false);
+  list_unmatched(scene, by_walls_);
+  for (const MapMatch& match : matcher_.match_walls(scene, unmatched_, by_walls_.estimate()))
+    observe_landmark(scene, match.primitive, match.landmark, -1, by_walls_);
+  if (!by_walls_.observations.empty()) solve(scene, expected, by_walls_);
+  return by_walls_.pose;
+}
+
 SplitPose SceneFitter::solve_motion(const Scene& scene, const geometry::PoseEstimate& motion, SceneFit& fit) {
   fit.solution = solver_.solve({motion.pose, motion.covariance, Eigen::Matrix3d::Zero()}, fit.observations,
                                scene.carry_covariance);

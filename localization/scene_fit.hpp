@@ -56,6 +56,10 @@ class SceneFitter {
   void fit_anew(const perception::Scene& scene, const geometry::PoseEstimate& from, const SplitPose& expected,
                 SceneFit& fit);
 
+  /// The expected pose as the walls alone correct it: they are few, long and far apart, so that even from a poor
+  /// prediction none is taken for another. For looking for the rest; `expected` itself where no wall is matched.
+  [[nodiscard]] SplitPose sharpen(const perception::Scene& scene, const SplitPose& expected);
+
   /// The motion between two scenes, from observe_again() of what was seen in both; with odometry as the prior.
   [[nodiscard]] SplitPose solve_motion(const perception::Scene& scene, const geometry::PoseEstimate& motion,
                                        SceneFit& fit);
@@ -74,6 +78,8 @@ class SceneFitter {
   MapMatcher matcher_;
   MapMatcher first_matcher_;
   PoseSolver solver_;
+
+  SceneFit by_walls_;
 
   // One fit's workspace.
   std::vector<bool> wall_in_use_;  ///< by segment

@@ -88,14 +88,17 @@ TEST(MatchCheck, WallsAreJudgedByTheirLine) {
   }
 }
 
-TEST(MatchCheck, CountsSeenTracksWithALandmark) {
+TEST(MatchCheck, CountsWhatThePoseRestsOn) {
   perception::Scene scene;
-  tracking::Track right, lone, missed, bad;
-  right.landmark = missed.landmark = bad.landmark = corner_id();
-  right.last_seen = corner_seen(0, 0);
-  missed.state = tracking::TrackState::kMissed;
-  bad.last_seen = corner_seen(0.2, 0);
-  const MatchCounts counts = check_matches(scene, std::vector{right, lone, missed, bad}, map(), kPose);
+  scene.primitives = {corner_seen(0, 0), corner_seen(0.2, 0), corner_seen(0.3, 0)};
+  std::vector<localization::Observation> observations(3);
+  for (int i = 0; i < 3; ++i) {
+    observations[static_cast<std::size_t>(i)].primitive = i;
+    observations[static_cast<std::size_t>(i)].landmark = corner_id();
+  }
+  localization::PoseSolution solution;
+  solution.outlier = {false, false, true};
+  const MatchCounts counts = check_matches(scene, observations, solution, map(), kPose);
   EXPECT_EQ(counts.matches, 2);
   EXPECT_EQ(counts.wrong, 1);
   EXPECT_EQ(counts.wrong_share(), 0.5);
