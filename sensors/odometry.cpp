@@ -17,12 +17,17 @@ constexpr double kTurnAcceleration = 1.0;
 
 /// A straight motion whose heading error builds up on the way: the end of the way is off sideways with a third of the
 /// variance of (heading error * distance), and a covariance of half of it.
-geometry::PoseEstimate straight(const geometry::Pose2& motion, double variance_t, double variance_r) {
+/// \param lateral_share  OdometryNoise::lateral_share
+geometry::PoseEstimate straight(const geometry::Pose2& motion, double variance_per_metre, double lateral_share,
+                                double variance_r) {
   geometry::PoseEstimate estimate{motion, Eigen::Matrix3d::Zero()};
   const Eigen::Vector2d along = motion.translation();
   const Eigen::Vector2d aside(-along.y(), along.x());
+  const double distance = along.norm();
+  const double per_metre = distance > 0.0 ? variance_per_metre / distance : 0.0;
   estimate.covariance.topLeftCorner<2, 2>() =
-      variance_t * Eigen::Matrix2d::Identity() + variance_r / 3.0 * aside * aside.transpose();
+      per_metre * along * along.transpose() +
+      (lateral_share * lateral_share * per_metre + variance_r / 3.0) * aside * aside.transpose();
   estimate.covariance.topRightCorner<2, 1>() = 0.5 * variance_r * aside;
   estimate.covariance.bottomLeftCorner<1, 2>() = estimate.covariance.topRightCorner<2, 1>().transpose();
   estimate.covariance(2, 2) = variance_r;
@@ -32,7 +37,7 @@ geometry::PoseEstimate straight(const geometry::Pose2& motion, double variance_t
 geometry::PoseEstimate step(const OdometryNoise& noise, const geometry::Pose2& motion) {
   const double distance = std::hypot(motion.x, motion.y);
   const double turn = std::abs(geometry::wrap_angle(motion.theta));
-  return straight(motion, noise.translation_per_metre * noise.translation_per_metre * distance,
+  return straight(motion, noise.translation_per_metre * noise.translation_per_metre, noise.lateral_share,
                   noise.rotation_per_metre * noise.rotation_per_metre * distance +
                       noise.rotation_per_radian * noise.rotation_per_radian * turn);
 }

@@ -14,8 +14,11 @@ struct OdometryNoise {
   double translation_per_metre = 0.03;
   double rotation_per_metre = 0.02;
   double rotation_per_radian = 0.03;
+  /// Of translation_per_metre, across the direction of motion: wheels roll, and hardly slip sideways. 1 for a robot
+  /// that can move to all sides. It decides how well the heading of the instruments is learned from driving.
+  double lateral_share = 0.1;
 
-  /// Covariance of a measured straight motion T_from_to, in the frame `from`, plus a floor of 1 mm and 0.5 mrad so that
+  /// Covariance of a measured motion T_from_to, in the frame `from`, plus a floor of 1 mm and 0.5 mrad so that
   /// a robot at rest keeps an invertible covariance.
   [[nodiscard]] geometry::PoseEstimate with_covariance(const geometry::Pose2& T_from_to) const;
 

@@ -37,6 +37,16 @@ TEST(OdometryNoise, IsWhatItSaysAfterOneMetreAndAfterOneRadian) {
   EXPECT_NEAR(std::sqrt(noise.with_covariance({0.0, 0.0, 1.0}).covariance(2, 2)), 0.05, 1e-4);
 }
 
+TEST(OdometryNoise, WheelsHardlySlipSideways) {
+  const OdometryNoise rolling{.translation_per_metre = 0.03, .rotation_per_metre = 0.0, .rotation_per_radian = 0.0};
+  const Eigen::Matrix3d driven = rolling.with_covariance({0.0, 4.0, 0.0}).covariance;
+  EXPECT_NEAR(std::sqrt(driven(1, 1)), 0.06, 1e-4);
+  EXPECT_NEAR(std::sqrt(driven(0, 0)), 0.006, 1e-4) << "across the way: a tenth, and the floor";
+  OdometryNoise sliding = rolling;
+  sliding.lateral_share = 1.0;
+  EXPECT_NEAR(std::sqrt(sliding.with_covariance({0.0, 4.0, 0.0}).covariance(0, 0)), 0.06, 1e-4);
+}
+
 TEST(OdometryNoise, StraightMotionDoesNotDependOnHowOftenItIsRead) {
   const OdometryNoise noise;
   const geometry::PoseEstimate at_once = noise.with_covariance({2.0, 0.0, 0.0});
@@ -61,7 +71,7 @@ TEST(OdometryNoise, AgreesWithDrawnDrift) {
       const double sigma_t = noise.translation_per_metre * std::sqrt(step);
       const double sigma_r =
           std::hypot(noise.rotation_per_metre * std::sqrt(step), noise.rotation_per_radian * std::sqrt(turn));
-      pose = pose * geometry::Pose2{step + sigma_t * normal(random), sigma_t * normal(random),
+      pose = pose * geometry::Pose2{step + sigma_t * normal(random), noise.lateral_share * sigma_t * normal(random),
                                     turn + sigma_r * normal(random)};
     }
     const Eigen::Vector3d off(pose.x - expected.pose.x, pose.y - expected.pose.y, pose.theta - expected.pose.theta);
