@@ -49,7 +49,9 @@ Eigen::Vector2d end_of(const std::vector<Segment>& walls, std::size_t end) {
 double angle_of(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
 /// Wall ends within the tolerance of each other become one junction at their mean; the two ends of one wall never do.
-std::vector<Junction> join_ends(const std::vector<Segment>& walls, double tolerance) {
+/// \param junction_of_end  by end
+std::vector<Junction> join_ends(const std::vector<Segment>& walls, double tolerance,
+                                std::vector<int>& junction_of_end) {
   const std::size_t ends = 2 * walls.size();
   Groups groups(ends);
   for (std::size_t i = 0; i < ends; ++i)
@@ -66,6 +68,7 @@ std::vector<Junction> join_ends(const std::vector<Segment>& walls, double tolera
       junctions.emplace_back();
     }
     Junction& joined = junctions[junction];
+    junction_of_end.push_back(static_cast<int>(junction));
     joined.arms.push_back({i / 2, angle_of(end_of(walls, i ^ 1U) - end_of(walls, i))});
     joined.position += (end_of(walls, i) - joined.position) / static_cast<double>(joined.arms.size());
   }
@@ -99,32 +102,60 @@ Groups join_collinear(const std::vector<Segment>& walls, const std::vector<Junct
   return groups;
 }
 
+struct WallEnd {
+  Eigen::Vector2d position;
+  int junction = 0;
+};
+
+/// Of the least-squares line through the ends, at `along` from extent.a: the end at t_i moves it by
+/// 1/n + (along - t)(t_i - t) / sum((t_i - t)^2), t being the mean. Ends in one junction move together.
+void add_plan_terms(const std::vector<WallEnd>& ends, WallLandmark& wall) {
+  const double n = static_cast<double>(ends.size());
+  const auto along = [&wall](const WallEnd& end) { return (end.position - wall.extent.a).dot(wall.direction); };
+  double mean = 0.0, spread = 0.0;
+  for (const WallEnd& end : ends) mean += along(end) / n;
+  for (const WallEnd& end : ends) spread += (along(end) - mean) * (along(end) - mean);
+  for (const WallEnd& end : ends) {
+    const double slope = (along(end) - mean) / spread;
+    const double offset = 1.0 / n - mean * slope;
+    const auto known = std::find_if(wall.plan_terms.begin(), wall.plan_terms.end(),
+                                    [&end](const PlanTerm& term) { return term.junction == end.junction; });
+    if (known == wall.plan_terms.end()) {
+      wall.plan_terms.push_back({end.junction, offset, slope});
+    } else {
+      known->offset += offset;
+      known->slope += slope;
+    }
+  }
+}
+
 /// The line through all the ends (total least squares) between the outermost of them.
-WallLandmark wall_through(const std::vector<Eigen::Vector2d>& ends) {
+WallLandmark wall_through(const std::vector<WallEnd>& ends) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2d& end : ends) mean += end / static_cast<double>(ends.size());
+  for (const WallEnd& end : ends) mean += end.position / static_cast<double>(ends.size());
   double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (const Eigen::Vector2d& end : ends) {
-    const Eigen::Vector2d d = end - mean;
+  for (const WallEnd& end : ends) {
+    const Eigen::Vector2d d = end.position - mean;
     xx += d.x() * d.x(), xy += d.x() * d.y(), yy += d.y() * d.y();
   }
   const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
   WallLandmark wall;
   wall.direction = {std::cos(angle), std::sin(angle)};
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Eigen::Vector2d& end : ends) {
-    low = std::min(low, (end - mean).dot(wall.direction));
-    high = std::max(high, (end - mean).dot(wall.direction));
+  for (const WallEnd& end : ends) {
+    low = std::min(low, (end.position - mean).dot(wall.direction));
+    high = std::max(high, (end.position - mean).dot(wall.direction));
   }
   wall.extent = {mean + low * wall.direction, mean + high * wall.direction};
   wall.length_m = high - low;
+  add_plan_terms(ends, wall);
   return wall;
 }
 
 /// How far the ends of a group stray from one line. [m]
-double straightness(const WallLandmark& wall, const std::vector<Eigen::Vector2d>& ends) {
+double straightness(const WallLandmark& wall, const std::vector<WallEnd>& ends) {
   double worst = 0.0;
-  for (const Eigen::Vector2d& end : ends) worst = std::max(worst, std::abs((end - wall.extent.a).dot(wall.normal())));
+  for (const WallEnd& end : ends) worst = std::max(worst, std::abs((end.position - wall.extent.a).dot(wall.normal())));
   return worst;
 }
 
@@ -141,11 +172,12 @@ double crossing(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction,
 }  // namespace
 
 Eigen::Matrix2d WallLandmark::plan_covariance(double along_m, double uncertainty_m) const {
-  const double share = along_m / length_m, variance = uncertainty_m * uncertainty_m;
-  const double across = variance * ((1.0 - share) * (1.0 - share) + share * share);
-  const double angle = 2.0 * variance / (length_m * length_m);
-  const double both = variance * (2.0 * share - 1.0) / length_m;
-  return (Eigen::Matrix2d() << across, both, both, angle).finished();
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (const PlanTerm& term : plan_terms) {
+    const Eigen::Vector2d moved(term.offset + term.slope * along_m, term.slope);
+    sum += moved * moved.transpose();
+  }
+  return uncertainty_m * uncertainty_m * sum;
 }
 
 LandmarkMap::LandmarkMap(const geometry::FloorPlan& plan, const LandmarkMapParams& params)
@@ -153,19 +185,17 @@ LandmarkMap::LandmarkMap(const geometry::FloorPlan& plan, const LandmarkMapParam
   for (const Segment& wall : plan.walls)
     if (wall.length() > 0.0) surfaces_.push_back(wall);
   const double tolerance = std::max(params.join_tolerance_m, 3.0 * plan.uncertainty_m);
-  std::vector<Junction> junctions = join_ends(surfaces_, tolerance);
+  std::vector<int> junction_of_end;
+  std::vector<Junction> junctions = join_ends(surfaces_, tolerance, junction_of_end);
   join_interiors(surfaces_, tolerance, junctions);
 
   Groups groups = join_collinear(surfaces_, junctions, params.max_collinear_turn_rad);
   for (std::size_t first = 0; first < surfaces_.size(); ++first) {
     if (groups.find(first) != first) continue;
-    std::vector<Eigen::Vector2d> ends;
-    std::vector<Segment> members;
+    std::vector<WallEnd> ends;  // two by two
     for (std::size_t w = first; w < surfaces_.size(); ++w)
-      if (groups.find(w) == first) {
-        members.push_back(surfaces_[w]);
-        ends.push_back(surfaces_[w].a), ends.push_back(surfaces_[w].b);
-      }
+      if (groups.find(w) == first)
+        for (const std::size_t end : {2 * w, 2 * w + 1}) ends.push_back({end_of(surfaces_, end), junction_of_end[end]});
     const WallLandmark whole = wall_through(ends);
     const bool straight = straightness(whole, ends) <= tolerance;
     const auto keep = [&](const WallLandmark& wall) {
@@ -174,17 +204,18 @@ LandmarkMap::LandmarkMap(const geometry::FloorPlan& plan, const LandmarkMapParam
     if (straight)
       keep(whole);
     else
-      for (const Segment& member : members) keep(wall_through({member.a, member.b}));
+      for (std::size_t i = 0; i < ends.size(); i += 2) keep(wall_through({ends[i], ends[i + 1]}));
   }
 
   for (const Junction& junction : junctions) {
-    PointLandmark point{.position = junction.position, .vertical = false, .arms = {}};
+    PointLandmark point{.position = junction.position, .vertical = false, .arms = {}, .plan_term = {}};
     for (const Arm& arm : junction.arms) point.arms.push_back(arm.direction);
     std::sort(point.arms.begin(), point.arms.end());
+    point.plan_term.junction = junction_count();
     points_.push_back(point);
   }
   for (const Eigen::Vector2d& vertical : plan.verticals)
-    points_.push_back({.position = vertical, .vertical = true, .arms = {}});
+    points_.push_back({.position = vertical, .vertical = true, .arms = {}, .plan_term = {junction_count()}});
   if (params.cut_walls_at_points) cut_walls_at_points(tolerance);
 }
 
@@ -204,6 +235,7 @@ void LandmarkMap::cut_walls_at_points(double tolerance) {
       WallLandmark piece = wall;
       piece.extent = {wall.extent.a + cuts[i - 1] * wall.direction, wall.extent.a + cuts[i] * wall.direction};
       piece.length_m = cuts[i] - cuts[i - 1];
+      for (PlanTerm& term : piece.plan_terms) term.offset += term.slope * cuts[i - 1];
       pieces.push_back(piece);
     }
   }

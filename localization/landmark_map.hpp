@@ -23,14 +23,24 @@ struct LandmarkMapParams {
                                          ///< radial lines
 };
 
+/// How much a landmark is off with one junction of the plan: a point as much as the junction (offset 1); a wall's line
+/// across itself, at `along` from extent.a, by (offset + slope * along) times as much, and it is turned by slope times
+/// as much. [1, 1/m]
+struct PlanTerm {
+  int junction = 0;
+  double offset = 1.0;
+  double slope = 0.0;
+};
+
 /// A wall of the plan: collinear joined walls are one.
 struct WallLandmark {
   geometry::Segment extent;
   Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
   double length_m = 0.0;
+  std::vector<PlanTerm> plan_terms;  ///< of the junctions that the line is drawn through
 
   [[nodiscard]] Eigen::Vector2d normal() const { return {-direction.y(), direction.x()}; }
-  /// Covariance of (offset across the line at `along` from extent.a, angle) from independent errors of both ends.
+  /// Covariance of (offset across the line at `along` from extent.a, angle) from independent errors of the junctions.
   [[nodiscard]] Eigen::Matrix2d plan_covariance(double along_m, double uncertainty_m) const;
 };
 
@@ -39,6 +49,7 @@ struct PointLandmark {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   bool vertical = false;     ///< a mark without relief: type `other` from wherever it is seen
   std::vector<double> arms;  ///< directions in which walls leave the junction, growing, (-pi, pi] [rad]
+  PlanTerm plan_term;
 };
 
 /// The four lists of the theoretical map (Clerentin et al., sec. 4.2) as seen from a pose: a junction is a corner from
@@ -52,6 +63,9 @@ class LandmarkMap {
   /// The plan's walls as they are: what hides.
   [[nodiscard]] const std::vector<geometry::Segment>& surfaces() const { return surfaces_; }
   [[nodiscard]] double uncertainty_m() const { return uncertainty_m_; }
+  /// Number of places of the plan whose errors are independent: all junctions and marks.
+  [[nodiscard]] int junction_count() const { return static_cast<int>(points_.size()); }
+  [[nodiscard]] int landmark_count() const { return static_cast<int>(walls_.size() + points_.size()); }
   [[nodiscard]] bool empty() const { return walls_.empty() && points_.empty(); }
 
   [[nodiscard]] tracking::LandmarkId wall_id(std::size_t wall) const { return static_cast<int>(wall); }

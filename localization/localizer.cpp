@@ -31,12 +31,6 @@ using tracking::Track;
 /// The start of a run without a plan or without an initial pose: the origin of its own frame, exactly.
 constexpr double kOriginSigma = 1e-6;
 
-SplitPose moved(const SplitPose& from, const PoseEstimate& motion) {
-  const PoseEstimate independent = geometry::compose({from.pose, from.independent}, motion);
-  const PoseEstimate correlated = geometry::compose({from.pose, from.correlated}, {motion.pose, Matrix3d::Zero()});
-  return {independent.pose, independent.covariance, correlated.covariance};
-}
-
 }  // namespace
 
 struct Localizer::State {
@@ -51,12 +45,8 @@ struct Localizer::State {
         monitor(params.integrity),
         absolute(initial.has_value() && !map.empty()),
         predictor(params.constant_velocity) {
-    if (absolute) {
-      fit.pose.pose = initial->pose;
-      fit.pose.independent = initial->covariance;
-    } else {
-      fit.pose.independent = kOriginSigma * kOriginSigma * Matrix3d::Identity();
-    }
+    const PoseEstimate origin{{}, kOriginSigma * kOriginSigma * Matrix3d::Identity()};
+    fit.pose = calibrated_pose(rig, absolute ? *initial : origin, 2 * (map.junction_count() + map.landmark_count()));
   }
 
   LocalizerParams params;
@@ -66,28 +56,30 @@ struct Localizer::State {
   tracking::Tracker tracker;
   TrackLabels labels;
   IntegrityMonitor monitor;
-  bool absolute;           ///< poses are in the map frame, not relative to the start
-  SceneFit fit;            ///< the latest pose and what it rests on
-  SceneFit other;          ///< another one that is tried
-  int matched_before = 0;  ///< primitives that the latest fix rests on
-  int unchecked = 0;       ///< acquisitions since the scan last lay on the plan
+  bool absolute;             ///< poses are in the map frame, not relative to the start
+  SceneFit fit;              ///< the latest pose and what it rests on
+  SceneFit other;            ///< another one that is tried
+  CalibratedPose predicted;  ///< from the latest pose
+  CalibratedPose wide;       ///< the same, less sure
+  int matched_before = 0;    ///< primitives that the latest fix rests on
+  int unchecked = 0;         ///< acquisitions since the scan last lay on the plan
   PoseHistory history;
   MotionPredictor predictor;
   std::vector<double> landmark_beliefs;  ///< by observation, a workspace
 
   [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
   [[nodiscard]] PoseEstimate predict(const Scene& scene, const std::optional<PoseEstimate>& motion);
-  [[nodiscard]] PoseEstimate motion_to(const SplitPose& pose) const;
+  [[nodiscard]] PoseEstimate motion_to(const CalibratedPose& pose) const;
   [[nodiscard]] Matrix3d doubt() const;
-  void expect_landmarks(const SplitPose& predicted);
+  void expect_landmarks(const CalibratedPose& from);
   void expect_young_tracks(const Pose2& step);
   [[nodiscard]] Pose2 likeliest_first_step(const Scene& scene);
   void solve_motion(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
   void start_tracks(const Scene& scene);
   void gather(const Scene& scene, SceneFit& of) const;
   [[nodiscard]] double quality(const SceneFit& of, const Scene& scene) const;
-  void search_pose(const Scene& scene, const SplitPose& predicted, bool odometry);
-  bool match_anew(const Scene& scene, const SplitPose& expected);
+  void search_pose(const Scene& scene, bool odometry);
+  bool match_anew(const Scene& scene, const CalibratedPose& expected);
   [[nodiscard]] Localization report(const Scene& scene) const;
   [[nodiscard]] Integrity watch();
   void weigh(const Scene& scene, Localization& fix);
@@ -117,14 +109,16 @@ PoseEstimate Localizer::State::predict(const Scene& scene, const std::optional<P
     return step;
   }
   // From two degrees beside the truth, many radial lines look like their neighbours.
-  const SplitPose sharpened = fitter.sharpen(scene, moved(fit.pose, step));
+  predicted = fit.pose;
+  move(predicted, step, params.calibration_walk);
+  const CalibratedPose& sharpened = fitter.sharpen(scene, predicted);
   tracker.predict(motion_to(sharpened));
   expect_landmarks(sharpened);
   return step;
 }
 
 /// The motion from the latest pose to another one, which knows nothing of it.
-PoseEstimate Localizer::State::motion_to(const SplitPose& pose) const {
+PoseEstimate Localizer::State::motion_to(const CalibratedPose& pose) const {
   Matrix3d to_base = Matrix3d::Identity();
   to_base.topLeftCorner<2, 2>() = fit.pose.pose.rotation().transpose();
   return {fit.pose.pose.inverse() * pose.pose,
@@ -138,14 +132,14 @@ Matrix3d Localizer::State::doubt() const {
 }
 
 /// Map and tracks agree: a track with a landmark is looked for where the map has it.
-void Localizer::State::expect_landmarks(const SplitPose& predicted) {
+void Localizer::State::expect_landmarks(const CalibratedPose& from) {
   const std::vector<Track>& tracks = tracker.tracks();
-  const Matrix3d P = predicted.covariance();
-  const Pose2 T_base_map = predicted.pose.inverse();
+  const Matrix3d P = from.covariance();
+  const Pose2 T_base_map = from.pose.inverse();
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     if (tracks[t].landmark == kNoLandmark || map.is_wall(tracks[t].landmark)) continue;
     const Vector2d p = T_base_map * map.point(tracks[t].landmark).position;
-    const Eigen::Matrix<double, 2, 3> by_pose = base_coordinates_by_pose(predicted.pose, p);
+    const Eigen::Matrix<double, 2, 3> by_pose = base_coordinates_by_pose(from.pose, p);
     const double plan = map.uncertainty_m() * map.uncertainty_m();
     tracker.expect_point(static_cast<int>(t), p,
                          by_pose * P * by_pose.transpose() + plan * Eigen::Matrix2d::Identity());
@@ -197,23 +191,24 @@ double Localizer::State::quality(const SceneFit& of, const Scene& scene) const {
 /// Gathers the evidence about the pose. Primitives that were matched wrongly agree with the wrong pose that they make;
 /// the raw scan and the landmarks that should be in sight do not. Where these speak against the pose, everything is
 /// matched anew from the pose nearby from which the scan lies best on the plan, and what is believed more is kept.
-void Localizer::State::search_pose(const Scene& scene, const SplitPose& predicted, bool odometry) {
+void Localizer::State::search_pose(const Scene& scene, bool odometry) {
   gather(scene, fit);
   if (!fit.evidence.scan_agreement) return;
   const bool off_plan = *fit.evidence.scan_agreement < params.search_below;
   const bool unrecognised = recognition_belief(fit.evidence, params.belief).no > 0.0;
   const bool lost_sight = fit.evidence.matched < params.search_matched_below * matched_before;
   if (!off_plan && !unrecognised && !lost_sight) return;
-  SplitPose wide = predicted;
-  wide.independent += doubt();
+  wide = predicted;
+  widen(wide, doubt());
   if (match_anew(scene, wide) || odometry) return;
-  wide.independent(2, 2) += params.unforeseen_turn_sigma_rad * params.unforeseen_turn_sigma_rad;
+  const double turn = params.unforeseen_turn_sigma_rad;
+  widen(wide, Eigen::Vector3d(0.0, 0.0, turn * turn).asDiagonal());
   match_anew(scene, wide);
 }
 
 /// Matches everything from the pose that the scan fits best about an expected one.
 /// \returns whether that is better than what was there, which is kept else.
-bool Localizer::State::match_anew(const Scene& scene, const SplitPose& expected) {
+bool Localizer::State::match_anew(const Scene& scene, const CalibratedPose& expected) {
   const double position = params.searched_sigma_m * params.searched_sigma_m;
   const double turn = params.searched_sigma_rad * params.searched_sigma_rad;
   const PoseEstimate found{scan_matcher.search(scene.points, {expected.pose, expected.covariance()}),
@@ -239,8 +234,7 @@ void Localizer::State::solve_motion(const Scene& scene, const std::vector<Match>
     fit.observations.push_back(observe_again(now, track.last_seen, params.fit.observations));
     fit.observations.back().primitive = match.primitive;
   }
-  const SplitPose solved = fitter.solve_motion(scene, motion, fit);
-  fit.pose = moved(fit.pose, {solved.pose, solved.covariance()});
+  move(fit.pose, fitter.solve_motion(scene, motion, fit));
 }
 
 void Localizer::State::start_tracks(const Scene& scene) {
@@ -309,7 +303,7 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   const Integrity integrity = watch();
   fix.protection = integrity.protection;
   if (fix.unrecognised || fix.off_plan) {
-    fit.pose.independent += doubt();
+    widen(fit.pose, doubt());
     fix.estimate = fit.estimate();
   }
   judge(fix, scene.camera_seen, scene.range_finder_seen, params.status);
@@ -353,9 +347,10 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
     for (const Match& match : matches)
       if (match.transition) s.tracker.relabel(match.track, kNoLandmark);
     // 3. The pose from what is matched; 4. the map for what has appeared, and the pose again.
-    const SplitPose predicted = s.history.empty() ? s.fit.pose : moved(s.fit.pose, step);
-    s.fitter.fit(scene, s.tracker.tracks(), matches, predicted, s.history.empty(), s.fit);
-    s.search_pose(scene, predicted, motion.has_value());
+    s.predicted = s.fit.pose;
+    if (!s.history.empty()) move(s.predicted, step, s.params.calibration_walk);
+    s.fitter.fit(scene, s.tracker.tracks(), matches, s.predicted, s.history.empty(), s.fit);
+    s.search_pose(scene, motion.has_value());
     s.labels.label(matches, s.tracker, s.fit);
   } else {
     s.solve_motion(scene, matches, step);

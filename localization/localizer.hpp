@@ -26,6 +26,7 @@ struct LocalizerParams {
   IntegrityParams integrity;
   StatusParams status;
   ConstantVelocityParams constant_velocity;
+  CalibrationWalk calibration_walk;
   // When a pose is searched nearby, by the raw scan: where so little of the scan lies on the plan, or
   double search_below = 0.75;
   double search_matched_below = 0.7;       ///< so few are matched of those that the fix before rested on.

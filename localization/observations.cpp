@@ -36,6 +36,12 @@ Observation observe_wall(const Primitive& wall, const WallLandmark& landmark, co
   o.base_angle = wall.line.angle;
   o.noise = line_noise(wall.line, params);
   o.plan = landmark.plan_covariance(at, plan_uncertainty_m);
+  o.plan_terms = landmark.plan_terms;
+  o.plan_along_m = at;
+  o.plan_sigma_m = plan_uncertainty_m;
+  o.own_sigma_m = params.as_built_sigma_m;
+  o.own_sigma_rad = params.as_built_sigma_rad;
+  o.plan.diagonal() += Vector2d(o.own_sigma_m, o.own_sigma_rad).cwiseAbs2();
   return o;
 }
 
@@ -44,7 +50,10 @@ Observation observe_point(const perception::Scene& scene, const Primitive& point
                           const ObservationParams& params) {
   Observation o;
   o.map_point = landmark.position;
-  o.plan = plan_uncertainty_m * plan_uncertainty_m * Matrix2d::Identity();
+  o.plan_terms = {&landmark.plan_term, 1};
+  o.plan_sigma_m = plan_uncertainty_m;
+  o.own_sigma_m = params.as_built_sigma_m;
+  o.plan = (o.plan_sigma_m * o.plan_sigma_m + o.own_sigma_m * o.own_sigma_m) * Matrix2d::Identity();
   bool on_used_wall = false;
   Matrix2d position_noise = point.position_covariance;
   for (const int s : {point.first_segment, point.last_segment}) {

@@ -27,10 +27,11 @@ SceneFitter::SceneFitter(const LandmarkMap& map, const sensors::Rig& rig, const 
       params_(params),
       matcher_(map, params.matching),
       first_matcher_(map, given_matching(params.matching)),
-      solver_(rig, params.solver) {}
+      solver_(params.solver),
+      uncalibrated_(calibrated_pose(rig, {})) {}
 
 void SceneFitter::fit(const Scene& scene, std::span<const tracking::Track> tracks, std::span<const Match> matches,
-                      const SplitPose& expected, bool given, SceneFit& fit) {
+                      const CalibratedPose& expected, bool given, SceneFit& fit) {
   fit.pose = expected;
   fit.new_matches.clear();
   observe_tracks(scene, tracks, matches, fit);
@@ -38,16 +39,18 @@ void SceneFitter::fit(const Scene& scene, std::span<const tracking::Track> track
   match_map(scene, expected, given ? first_matcher_ : matcher_, fit);
 }
 
-void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& from, const SplitPose& expected,
+void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& from, const CalibratedPose& expected,
                            SceneFit& fit) {
   fit.observations.clear();
   fit.new_matches.clear();
   wall_in_use_.assign(scene.segments.size(), false);
-  solve(scene, {from.pose, from.covariance, Eigen::Matrix3d::Zero()}, fit);
+  start_ = expected;
+  place(start_, from);
+  solve(scene, start_, fit);
   match_map(scene, expected, matcher_, fit);
 }
 
-SplitPose SceneFitter::sharpen(const Scene& scene, const SplitPose& expected) {
+const CalibratedPose& SceneFitter::sharpen(const Scene& scene, const CalibratedPose& expected) {
   by_walls_.pose = expected;
   by_walls_.observations.clear();
   wall_in_use_.assign(scene.segments.size(), false);
@@ -58,10 +61,12 @@ SplitPose SceneFitter::sharpen(const Scene& scene, const SplitPose& expected) {
   return by_walls_.pose;
 }
 
-SplitPose SceneFitter::solve_motion(const Scene& scene, const geometry::PoseEstimate& motion, SceneFit& fit) {
-  fit.solution = solver_.solve({motion.pose, motion.covariance, Eigen::Matrix3d::Zero()}, fit.observations,
-                               scene.carry_covariance);
-  return fit.solution.pose;
+geometry::PoseEstimate SceneFitter::solve_motion(const Scene& scene, const geometry::PoseEstimate& motion,
+                                                 SceneFit& fit) {
+  start_ = uncalibrated_;
+  place(start_, motion);
+  fit.solution = solver_.solve(start_, fit.observations, scene.carry_covariance);
+  return fit.solution.estimate();
 }
 
 void SceneFitter::observe_landmark(const Scene& scene, int primitive, LandmarkId landmark, int track, SceneFit& fit) {
@@ -72,6 +77,7 @@ void SceneFitter::observe_landmark(const Scene& scene, int primitive, LandmarkId
   Observation o = wall ? observe_wall(seen, map_->wall(landmark), fit.pose.pose, plan, params_.observations)
                        : observe_point(scene, seen, map_->point(landmark), wall_in_use_, plan, params_.observations);
   o.landmark = landmark;
+  o.own_column = 2 * (map_->junction_count() + landmark);
   o.primitive = primitive;
   o.track = track;
   fit.observations.push_back(o);
@@ -107,12 +113,12 @@ void SceneFitter::list_unmatched(const Scene& scene, const SceneFit& fit) {
     if (!used_[p]) unmatched_.push_back(static_cast<int>(p));
 }
 
-void SceneFitter::solve(const Scene& scene, const SplitPose& expected, SceneFit& fit) {
+void SceneFitter::solve(const Scene& scene, const CalibratedPose& expected, SceneFit& fit) {
   fit.solution = solver_.solve(expected, fit.observations, scene.carry_covariance);
   fit.pose = fit.solution.pose;
 }
 
-void SceneFitter::match_map(const Scene& scene, const SplitPose& expected, MapMatcher& matcher, SceneFit& fit) {
+void SceneFitter::match_map(const Scene& scene, const CalibratedPose& expected, MapMatcher& matcher, SceneFit& fit) {
   const auto add = [&](const std::vector<MapMatch>& found) {
     for (const MapMatch& match : found) {
       observe_landmark(scene, match.primitive, match.landmark, -1, fit);

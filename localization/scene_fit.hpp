@@ -27,13 +27,13 @@ struct SceneFitParams {
 
 /// A pose and what it rests on in one scene.
 struct SceneFit {
-  SplitPose pose;
+  CalibratedPose pose;
   PoseSolution solution;
   std::vector<Observation> observations;  ///< that the solution is made of
   std::vector<MapMatch> new_matches;      ///< of primitives whose tracks had no landmark
   LocalizationEvidence evidence;          ///< about the pose; without the tracks
 
-  [[nodiscard]] geometry::PoseEstimate estimate() const { return {pose.pose, pose.covariance()}; }
+  [[nodiscard]] geometry::PoseEstimate estimate() const { return pose.estimate(); }
 };
 
 /// From a scene and an expected pose to the pose that the plan gives: what the tracks continue, then what the map has
@@ -48,21 +48,21 @@ class SceneFitter {
   /// \param given     the first scene: its matching is given by hand (Clerentin et al., sec. 5); here, by the default's
   ///   criteria
   void fit(const perception::Scene& scene, std::span<const tracking::Track> tracks,
-           std::span<const tracking::Match> matches, const SplitPose& expected, bool given, SceneFit& fit);
+           std::span<const tracking::Match> matches, const CalibratedPose& expected, bool given, SceneFit& fit);
 
   /// Everything matched anew, whatever the tracks say.
-  /// \param from      where matching starts
+  /// \param from      where matching starts; the calibration is expected's
   /// \param expected  what the pose is held against; it may be far less sure
-  void fit_anew(const perception::Scene& scene, const geometry::PoseEstimate& from, const SplitPose& expected,
+  void fit_anew(const perception::Scene& scene, const geometry::PoseEstimate& from, const CalibratedPose& expected,
                 SceneFit& fit);
 
   /// The expected pose as the walls alone correct it: they are few, long and far apart, so that even from a poor
   /// prediction none is taken for another. For looking for the rest; `expected` itself where no wall is matched.
-  [[nodiscard]] SplitPose sharpen(const perception::Scene& scene, const SplitPose& expected);
+  [[nodiscard]] const CalibratedPose& sharpen(const perception::Scene& scene, const CalibratedPose& expected);
 
   /// The motion between two scenes, from observe_again() of what was seen in both; with odometry as the prior.
-  [[nodiscard]] SplitPose solve_motion(const perception::Scene& scene, const geometry::PoseEstimate& motion,
-                                       SceneFit& fit);
+  [[nodiscard]] geometry::PoseEstimate solve_motion(const perception::Scene& scene,
+                                                    const geometry::PoseEstimate& motion, SceneFit& fit);
 
  private:
   void observe_tracks(const perception::Scene& scene, std::span<const tracking::Track> tracks,
@@ -70,18 +70,20 @@ class SceneFitter {
   void observe_landmark(const perception::Scene& scene, int primitive, tracking::LandmarkId landmark, int track,
                         SceneFit& fit);
   void list_unmatched(const perception::Scene& scene, const SceneFit& fit);
-  void match_map(const perception::Scene& scene, const SplitPose& expected, MapMatcher& matcher, SceneFit& fit);
-  void solve(const perception::Scene& scene, const SplitPose& expected, SceneFit& fit);
+  void match_map(const perception::Scene& scene, const CalibratedPose& expected, MapMatcher& matcher, SceneFit& fit);
+  void solve(const perception::Scene& scene, const CalibratedPose& expected, SceneFit& fit);
 
   const LandmarkMap* map_;
   SceneFitParams params_;
   MapMatcher matcher_;
   MapMatcher first_matcher_;
   PoseSolver solver_;
+  CalibratedPose uncalibrated_;  ///< the rig as it came
 
   SceneFit by_walls_;
 
   // One fit's workspace.
+  CalibratedPose start_;
   std::vector<bool> wall_in_use_;  ///< by segment
   std::vector<int> unmatched_;     ///< primitives
   std::vector<bool> used_;         ///< by primitive

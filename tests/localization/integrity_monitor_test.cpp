@@ -54,22 +54,22 @@ std::vector<Observation> surroundings(int points, int bearings) {
 }
 
 /// A prediction at the origin.
-SplitPose prediction(double sigma_m, double sigma_rad) {
-  SplitPose prior;
-  prior.independent = Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+CalibratedPose prediction(double sigma_m, double sigma_rad) {
+  CalibratedPose prior = calibrated_pose({}, {});
+  widen(prior, Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal());
   return prior;
 }
 
 class Monitor : public ::testing::Test {
  protected:
   Integrity assess(const std::vector<Observation>& seen, double belief = 0.9, std::span<const Alias> aliases = {}) {
-    solution_ = PoseSolver(sensors::Rig{}).solve(prior_, seen);
+    solution_ = PoseSolver().solve(prior_, seen);
     return IntegrityMonitor(params_).assess(solution_, std::vector<double>(seen.size(), belief), aliases);
   }
   [[nodiscard]] double position_error() const { return solution_.pose.pose.translation().norm(); }
 
   IntegrityParams params_;
-  SplitPose prior_ = prediction(0.1, 0.05);
+  CalibratedPose prior_ = prediction(0.1, 0.05);
   PoseSolution solution_;
 };
 
@@ -92,7 +92,7 @@ TEST_F(Monitor, LeavingALandmarkOutGivesThePoseThatTheOthersGive) {
   const Integrity integrity = assess(seen);
   const Pose2 with = solution_.pose.pose;
   seen.erase(seen.begin() + 2);
-  const PoseSolution without = PoseSolver(sensors::Rig{}).solve(prior_, seen);
+  const PoseSolution without = PoseSolver().solve(prior_, seen);
   const double separation = (without.pose.pose.translation() - with.translation()).norm();
   const double sigma = std::sqrt(without.pose.covariance()(0, 0) - solution_.pose.covariance()(0, 0));
   EXPECT_EQ(integrity.separated, 2);
@@ -166,7 +166,7 @@ TEST_F(Monitor, CameraAndRangeFinderThatDisagreeAreTold) {
 
 TEST_F(Monitor, WheelsThatSlippedAreToldByTheLandmarks) {
   prior_.pose = {0.5, 0.0, 0.0};
-  prior_.independent *= 0.2;
+  prior_.joint.topLeftCorner<3, 3>() *= 0.2;
   EXPECT_GT(assess(surroundings(8, 8)).instrument_separation, 2.0);
 }
 

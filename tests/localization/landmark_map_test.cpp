@@ -125,12 +125,38 @@ TEST(LandmarkMap, EmptyPlanIsAnEmptyMap) {
 TEST(WallLandmark, PlanCovarianceIsThatOfIndependentEnds) {
   WallLandmark wall;
   wall.length_m = 4.0;
+  wall.plan_terms = {{.junction = 0, .offset = 1.0, .slope = -0.25}, {.junction = 1, .offset = 0.0, .slope = 0.25}};
   const Eigen::Matrix2d at_end = wall.plan_covariance(0.0, 0.01);
   EXPECT_NEAR(at_end(0, 0), 1e-4, 1e-12);
   const Eigen::Matrix2d at_middle = wall.plan_covariance(2.0, 0.01);
   EXPECT_NEAR(at_middle(0, 0), 0.5e-4, 1e-12);
   EXPECT_NEAR(at_middle(0, 1), 0.0, 1e-12);
   EXPECT_NEAR(at_middle(1, 1), 2e-4 / 16.0, 1e-12);
+}
+
+TEST(WallLandmark, IsOffWithTheJunctionsItIsDrawnThrough) {
+  // Two pieces of one wall, which meet where a third wall leaves. Moving a junction moves the line as its term says.
+  const double moved = 0.01;
+  const auto plan = [&](double x_moved) {
+    const auto y = [&](double x) { return x == x_moved ? moved : 0.0; };
+    return FloorPlan{.walls = {{{0, y(0)}, {2, y(2)}}, {{2, y(2)}, {5, y(5)}}, {{2, y(2)}, {2, -1}}},
+                     .verticals = {},
+                     .uncertainty_m = 0.01};
+  };
+  const LandmarkMap straight{plan(-1)};
+  const WallLandmark& wall = straight.walls().front();
+  ASSERT_NEAR(wall.length_m, 5.0, 1e-9);
+  EXPECT_EQ(wall.plan_terms.size(), 3U);
+  for (const PlanTerm& term : wall.plan_terms) {
+    const Vector2d junction = straight.points()[static_cast<std::size_t>(term.junction)].position;
+    const WallLandmark other = LandmarkMap{plan(junction.x())}.walls().front();
+    const double sign = wall.normal().y();
+    for (const double along : {0.0, 2.5, 5.0}) {
+      const Vector2d at = wall.extent.a + along * wall.direction;
+      const double offset = -other.normal().dot(at - other.extent.a) * (other.normal().dot(wall.normal()) > 0 ? 1 : -1);
+      EXPECT_NEAR(offset, sign * moved * (term.offset + term.slope * along), 1e-5) << junction.x() << " " << along;
+    }
+  }
 }
 
 }  // namespace

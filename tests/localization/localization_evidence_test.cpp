@@ -23,7 +23,7 @@ class EmptyRoom : public ::testing::Test {
   EmptyRoom() : map_(plan()) {
     scene_.camera_seen = scene_.range_finder_seen = true;
     solution_.pose.pose = {1.0, 1.0, 0.0};
-    solution_.pose.independent = 1e-4 * Eigen::Matrix3d::Identity();
+    widen(solution_.pose, 1e-4 * Eigen::Matrix3d::Identity());
   }
 
   static geometry::FloorPlan plan() {
