@@ -63,6 +63,7 @@ Outcome run(const datasets::Dataset& dataset, const PipelineParams& params,
     insert_ranges(mapper, localizer, rest);
     outcome.seconds_per_acquisition = busy / static_cast<double>(acquisitions.size());
   }
+  outcome.calibration = localizer.calibration();
   outcome.mapped = mapper.counts();
   outcome.map = mapper.take_grid();
   return outcome;

@@ -41,9 +41,10 @@ struct Outcome {
   evaluation::MatchCounts matches;  ///< against the truth, where there is one
   mapping::MappingCounts mapped;
   grids::EvidentialGrid map;
-  int without_image = 0;                 ///< acquisitions, of a robot with a camera
-  int without_scan = 0;                  ///< of a robot with a range finder
-  double seconds_per_acquisition = 0.0;  ///< from decoded acquisition to localization, without mapping
+  int without_image = 0;                     ///< acquisitions, of a robot with a camera
+  int without_scan = 0;                      ///< of a robot with a range finder
+  localization::RigCalibration calibration;  ///< learned by the end
+  double seconds_per_acquisition = 0.0;      ///< from decoded acquisition to localization, without mapping
 };
 
 /// The main job: every acquisition of a dataset from perception to the map.

@@ -16,6 +16,7 @@
 #include "apps/run_pictures.hpp"
 #include "apps/run_report.hpp"
 #include "apps/terminal.hpp"
+#include "results/calibration_file.hpp"
 #include "results/config.hpp"
 #include "results/results_writer.hpp"
 
@@ -88,6 +89,7 @@ Outcome run_and_write(const datasets::Dataset& dataset, const RunOptions& option
                                                         .observer = params.observer,
                                                         .localizer = params.localizer,
                                                         .mapper = params.mapper}));
+  writer.add_calibration(results::to_yaml(outcome.calibration, dataset.header.rig));
   Interruptible::check();
   if (pictures) pictures->publish();
   writer.finish();

@@ -9,6 +9,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "results/calibration_file.hpp"
+
 namespace credo::apps {
 namespace {
 
@@ -110,6 +112,8 @@ std::string to_text(const Outcome& outcome, const datasets::Dataset& dataset) {
   else if (!dataset.header.initial_pose)
     text += "no initial pose: poses are relative to the start, status initializing\n";
   text += "\n" + conflict_text(outcome.conflict);
+  const bool on_plan = dataset.header.floor_plan && dataset.header.initial_pose;
+  if (on_plan) text += "\n" + results::to_text(outcome.calibration, dataset.header.rig);
   if (const auto score = score_of(outcome, dataset)) {
     text += "\n" + evaluation::to_text(*score);
     text += fmt::format(

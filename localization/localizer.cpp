@@ -34,22 +34,29 @@ constexpr double kOriginSigma = 1e-6;
 }  // namespace
 
 struct Localizer::State {
-  State(const geometry::FloorPlan& plan, const sensors::Rig& rig, const std::optional<PoseEstimate>& initial,
+  State(const geometry::FloorPlan& plan, const sensors::Rig& instruments, const std::optional<PoseEstimate>& initial,
         const LocalizerParams& p)
       : params(p.with_method(p.method)),
+        rig(instruments),
         map(plan, params.map),
-        fitter(map, rig, params.fit),
+        fitter(map, instruments, params.fit),
         scan_matcher(map, params.fit.scan),
         tracker(params.tracker),
         labels(map, params.contradictions_allowed),
         monitor(params.integrity),
         absolute(initial.has_value() && !map.empty()),
         predictor(params.constant_velocity) {
+    if (rig.camera) {
+      const sensors::OmniCamera& camera = *rig.camera;
+      mirror = {camera.center_px, camera.accuracy.center_px, Vector2d::Zero(), camera.accuracy.tilt_rad};
+    }
     const PoseEstimate origin{{}, kOriginSigma * kOriginSigma * Matrix3d::Identity()};
     fit.pose = calibrated_pose(rig, absolute ? *initial : origin, 2 * (map.junction_count() + map.landmark_count()));
   }
 
   LocalizerParams params;
+  sensors::Rig rig;
+  perception::MirrorEstimate mirror;  ///< the latest
   LandmarkMap map;
   SceneFitter fitter;
   ScanMatcher scan_matcher;
@@ -335,6 +342,7 @@ void Localizer::with_path(sensors::Acquisition& acquisition) {
 
 Localization Localizer::update(const Scene& scene, const std::optional<PoseEstimate>& motion) {
   State& s = *state_;
+  if (scene.camera_seen) s.mirror = scene.mirror;
   // 1. Predict the pose and where the tracks should be seen.
   const PoseEstimate step = s.predict(scene, motion);
 
@@ -379,5 +387,6 @@ const std::vector<Observation>& Localizer::observations() const { return state_-
 const PoseSolution& Localizer::solution() const { return state_->fit.solution; }
 const LandmarkMap& Localizer::map() const { return state_->map; }
 const LocalizerParams& Localizer::params() const { return state_->params; }
+RigCalibration Localizer::calibration() const { return rig_calibration(state_->rig, state_->fit.pose, state_->mirror); }
 
 }  // namespace credo::localization

@@ -12,6 +12,7 @@
 #include "localization/localization.hpp"
 #include "localization/localization_belief.hpp"
 #include "localization/motion_prediction.hpp"
+#include "localization/rig_calibration.hpp"
 #include "localization/scene_fit.hpp"
 #include "tracking/tracker.hpp"
 
@@ -80,6 +81,8 @@ class Localizer {
   [[nodiscard]] const std::vector<Observation>& observations() const;
   [[nodiscard]] const PoseSolution& solution() const;
   [[nodiscard]] const LocalizerParams& params() const;
+  /// What was learned about the instruments so far; as they came where there is no pose on a plan.
+  [[nodiscard]] RigCalibration calibration() const;
 
  private:
   struct State;

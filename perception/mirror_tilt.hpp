@@ -46,6 +46,7 @@ class MirrorTilt {
   void learn(std::span<const SlopeReading> readings);
 
   [[nodiscard]] const Eigen::Vector2d& tilt_rad() const { return tilt_; }
+  [[nodiscard]] double sigma_rad() const { return sigma_rad_; }  ///< per axis
   /// 1-sigma of a line's slope through what is not known of the tilt. [rad px]
   [[nodiscard]] double slope_sigma() const { return slope_per_tilt_ * sigma_rad_; }
 

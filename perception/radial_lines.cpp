@@ -217,6 +217,7 @@ void RadialLineExtractor::extract(const sensors::OmniImage& image, Scene& scene)
   state.find_lines(scene.radial_lines);
   state.widen_crowded(scene.radial_lines);
   state.tilt.learn(state.slopes);
+  scene.mirror = {state.rim.center_px(), state.rim.sigma_px(), state.tilt.tilt_rad(), state.tilt.sigma_rad()};
   state.struts.remove(first, state.noise, scene.radial_lines);
   read_gray_curve(state.gray, first, state.noise, state.params.gray.bins, state.scratch, scene.gray);
 }

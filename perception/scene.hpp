@@ -37,6 +37,14 @@ enum class SegmentEnd {
   kUnseen     ///< no readings beside it
 };
 
+/// How the mirror stands in front of the camera, as learned from the images so far.
+struct MirrorEstimate {
+  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();  ///< from the rim, or as calibrated
+  double center_sigma_px = 0.0;                         ///< per axis
+  Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();   ///< along the base frame's x and y: from the lines' slopes
+  double tilt_sigma_rad = 0.0;                          ///< per axis
+};
+
 /// Mean grey level of five concentric circles, by azimuth (Clerentin et al., sec. 3.1, fifth criterion). Bin i holds
 /// the azimuths around 2 pi i / values.size(), in the directions of the base frame, seen from the camera.
 struct GrayCurve {
@@ -110,7 +118,8 @@ struct Scene {
   Eigen::Matrix3d carry_covariance = Eigen::Matrix3d::Zero();
   double mean_conflict = 0.0;  ///< of the five criteria over the segments
   ConflictReport conflicts;
-  bool camera_seen = false;  ///< an image was there and usable
+  MirrorEstimate mirror = {};  ///< of the latest image that showed something
+  bool camera_seen = false;    ///< an image was there and usable
   bool range_finder_seen = false;
   double saturated_share = 0.0;  ///< of the annulus
 };

@@ -97,6 +97,10 @@ void ResultsWriter::add_map(const grids::EvidentialGrid& grid, const grids::Deci
   write_belief_tiff(belief_image(grid, channels), working_folder() / "map_belief.tiff");
 }
 
+void ResultsWriter::add_calibration(const std::string& yaml) {
+  write_text(working_folder() / "calibration.yaml", yaml);
+}
+
 void ResultsWriter::add_config(const std::string& yaml) { write_text(working_folder() / "config.yaml", yaml); }
 
 const std::filesystem::path& ResultsWriter::working_folder() const { return state_->folder.path(); }

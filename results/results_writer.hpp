@@ -34,6 +34,8 @@ class ResultsWriter {
   void add_map(const grids::EvidentialGrid& grid, const grids::DecisionParams& decision = {},
                BeliefChannels channels = BeliefChannels::kNormalized);
   void add_config(const std::string& yaml);
+  /// calibration.yaml
+  void add_calibration(const std::string& yaml);
 
   /// Where further files (pictures) may be put before finish().
   [[nodiscard]] const std::filesystem::path& working_folder() const;

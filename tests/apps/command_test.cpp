@@ -227,7 +227,7 @@ TEST_F(Command, TheWholeWayOfTheData) {
               AllOf(HasSubstr("mean position error"), HasSubstr("confidently wrong"), HasSubstr("per pair")));
   for (const char* name :
        {"trajectory.tum", "localization.csv", "tracks.csv", "primitives.csv", "radial_lines.csv", "map.yaml", "map.pgm",
-        "map_belief.tiff", "config.yaml", "pictures/errors.png", "pictures/beliefs.png", "pictures/map.png"}) {
+        "map_belief.tiff", "config.yaml", "calibration.yaml", "pictures/errors.png", "pictures/beliefs.png", "pictures/map.png"}) {
     EXPECT_TRUE(fs::exists(folder_ / "first" / name)) << name;
   }
   const json info = json::parse(credo("info data --format json").out);
