@@ -50,7 +50,7 @@ void move(CalibratedPose& pose, const geometry::PoseEstimate& motion, const Cali
   const Eigen::Vector2d aside(-way.y(), way.x());
   pose.joint.topRows<2>() += aside * pose.joint.row(PoseState::kTheta);
   pose.joint.leftCols<2>() += pose.joint.col(PoseState::kTheta) * aside.transpose();
-  pose.with_plan.topRows<2>() += aside * pose.with_plan.row(PoseState::kTheta);
+  for (const int i : {0, 1}) pose.with_plan.row(i) += aside(i) * pose.with_plan.row(PoseState::kTheta);
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R.topLeftCorner<2, 2>() = pose.pose.rotation();
   pose.joint.topLeftCorner<3, 3>() += R * motion.covariance * R.transpose();

@@ -179,7 +179,7 @@ void PoseSolver::State::take(const CalibratedPose& pose, const Matrix3d& carry,
   PoseState::Matrix covariance = pose.joint;
   covariance.block<3, 3>(PoseState::kRangeX, PoseState::kRangeX) += carry;
   prior.information = inverse(covariance);
-  prior.plan_by_state.noalias() = prior.information * pose.with_plan;
+  prior.plan_by_state = prior.information.lazyProduct(pose.with_plan);  // without a workspace
   residuals.prior = prior.state;
   residuals.prior_whitener = whitener(prior.information);
   residuals.observations = &observations;
@@ -320,11 +320,11 @@ void PoseSolver::State::carry_over(const PoseState::Vector& x) {
   const ScanColumns by_carry = by_state.middleCols<3>(PoseState::kRangeX);
   const PoseState::Columns& before = prior.pose->with_plan;
   CalibratedPose& after = solution.pose;
-  after.with_plan.noalias() = A * before;
-  const PoseState::Matrix cross = after.with_plan * by_plan.transpose();
+  after.with_plan = A.lazyProduct(before);
+  const PoseState::Matrix cross = after.with_plan.lazyProduct(by_plan.transpose());
   joint +=
       A * prior.pose->joint * A.transpose() + by_carry * prior.carry * by_carry.transpose() - cross - cross.transpose();
-  joint.noalias() += by_plan * by_plan.transpose();
+  joint += by_plan.lazyProduct(by_plan.transpose());
   after.joint = 0.5 * (joint + joint.transpose());
   after.with_plan -= by_plan;
   const PoseState::Vector smoothed = prior.state + L * difference(x, prior.state);
