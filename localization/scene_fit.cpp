@@ -22,12 +22,20 @@ MapMatchingParams given_matching(MapMatchingParams params) {
 
 }  // namespace
 
+SplitPose moved(const SplitPose& from, const geometry::PoseEstimate& motion) {
+  const geometry::PoseEstimate independent = geometry::compose({from.pose, from.independent}, motion);
+  const geometry::PoseEstimate correlated =
+      geometry::compose({from.pose, from.correlated}, {motion.pose, Eigen::Matrix3d::Zero()});
+  return {independent.pose, independent.covariance, correlated.covariance};
+}
+
 SceneFitter::SceneFitter(const LandmarkMap& map, const sensors::Rig& rig, const SceneFitParams& params)
     : map_(&map),
       params_(params),
       matcher_(map, params.matching),
       first_matcher_(map, given_matching(params.matching)),
-      solver_(rig, params.solver) {}
+      solver_(rig, params.solver),
+      scan_matcher_(map, params.scan) {}
 
 void SceneFitter::fit(const Scene& scene, std::span<const tracking::Track> tracks, std::span<const Match> matches,
                       const SplitPose& expected, bool given, SceneFit& fit) {
@@ -45,6 +53,12 @@ void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& fro
   wall_in_use_.assign(scene.segments.size(), false);
   solve(scene, {from.pose, from.covariance, Eigen::Matrix3d::Zero()}, fit);
   match_map(scene, expected, matcher_, fit);
+}
+
+void SceneFitter::gather(const Scene& scene, SceneFit& fit) const {
+  fit.evidence = gather_evidence(scene, *map_, fit.observations, fit.solution, params_.evidence);
+  if (params_.method == perception::Method::kDefault)
+    fit.evidence.scan_agreement = scan_matcher_.compare(scene.points, fit.pose.pose).share(params_.scan);
 }
 
 SplitPose SceneFitter::sharpen(const Scene& scene, const SplitPose& expected) {

@@ -17,6 +17,7 @@
 namespace credo::localization {
 
 struct SceneFitParams {
+  perception::Method method = perception::Method::kDefault;
   MapMatchingParams matching;
   ObservationParams observations;
   PoseSolverParams solver;
@@ -35,6 +36,9 @@ struct SceneFit {
 
   [[nodiscard]] geometry::PoseEstimate estimate() const { return {pose.pose, pose.covariance()}; }
 };
+
+/// A pose carried over a motion whose errors are its own.
+[[nodiscard]] SplitPose moved(const SplitPose& from, const geometry::PoseEstimate& motion);
 
 /// From a scene and an expected pose to the pose that the plan gives: what the tracks continue, then what the map has
 /// for the rest, and the pose in turn (Clerentin et al., sec. 4.2). Keeps its memory.
@@ -56,6 +60,9 @@ class SceneFitter {
   void fit_anew(const perception::Scene& scene, const geometry::PoseEstimate& from, const SplitPose& expected,
                 SceneFit& fit);
 
+  /// What speaks for and against the pose of a fit, the tracks left out, into fit.evidence.
+  void gather(const perception::Scene& scene, SceneFit& fit) const;
+
   /// The expected pose as the walls alone correct it: they are few, long and far apart, so that even from a poor
   /// prediction none is taken for another. For looking for the rest; `expected` itself where no wall is matched.
   [[nodiscard]] SplitPose sharpen(const perception::Scene& scene, const SplitPose& expected);
@@ -63,6 +70,9 @@ class SceneFitter {
   /// The motion between two scenes, from observe_again() of what was seen in both; with odometry as the prior.
   [[nodiscard]] SplitPose solve_motion(const perception::Scene& scene, const geometry::PoseEstimate& motion,
                                        SceneFit& fit);
+
+  /// The raw scan against the plan.
+  [[nodiscard]] ScanMatcher& scan_matcher() { return scan_matcher_; }
 
  private:
   void observe_tracks(const perception::Scene& scene, std::span<const tracking::Track> tracks,
@@ -78,6 +88,7 @@ class SceneFitter {
   MapMatcher matcher_;
   MapMatcher first_matcher_;
   PoseSolver solver_;
+  ScanMatcher scan_matcher_;
 
   SceneFit by_walls_;
 
