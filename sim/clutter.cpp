@@ -24,7 +24,6 @@ using Point = Eigen::Vector2d;
 constexpr double kOffWay_m = 0.12;    // between the robot's side and a thing
 constexpr double kOffWall_m = 0.02;   // behind a thing; posters and frames fit in between
 constexpr double kOffThings_m = 0.1;  // between two things
-constexpr double kOffMarks_m = 0.5;   // from door frames: doors can be used
 constexpr double kLookedAtFrom_m = 0.45;
 constexpr double kPart_m = 0.25;       // of a wall, looked at as a whole
 constexpr double kRoomAround_m = 0.4;  // a place for what stands free
@@ -80,7 +79,8 @@ class Clutterer {
   void fill() {
     const double wanted_m = world_->clutter_share * walls_m_;
     for (int i = 0; i < kMostAttempts && hidden_m_ < wanted_m; ++i) {
-      const bool free_standing = random_.chance(kFreeStandingShare);
+      const bool walls_are_full = i > kMostAttempts / 2;
+      const bool free_standing = standing_free_m_ < kFreeStandingShare * hidden_m_ || (walls_are_full && i % 2 == 0);
       const std::optional<Thing> thing = free_standing ? draw_free_standing() : draw_at_wall();
       if (thing && fits(*thing, !free_standing)) put(*thing, free_standing);
     }
@@ -128,10 +128,6 @@ class Clutterer {
     };
     const double off_way = world_->robot_radius_m + kOffWay_m;
     if (std::any_of(way_.begin(), way_.end(), [&](const Segment& s) { return nearer(s, off_way); })) return false;
-    if (std::any_of(world_->marks.begin(), world_->marks.end(), [&](const Point& mark) {
-          return nearer({mark, mark}, kOffMarks_m);
-        }))
-      return false;
     const double off_wall = at_wall ? 0.5 * kOffWall_m : kOffThings_m;
     return std::none_of(world_->panels.begin(), world_->panels.end(), [&](const Panel& panel) {
       const bool wall = panel.z0_m <= 0.0 && panel.z1_m >= world_->ceiling_m;
@@ -145,6 +141,7 @@ class Clutterer {
     const std::string look = kLooks[random_.bits() % (free_standing ? 4 : 6)];
     Builder(*world_).add_box(thing.centre, thing.size, thing.turn_rad, 0.0, top, look, false);
     hidden_m_ += thing.size.x();
+    if (free_standing) standing_free_m_ += thing.size.x();
   }
 
   World* world_;
@@ -154,7 +151,8 @@ class Clutterer {
   double lowest_top_m_ = 0.0;  ///< of what the range finder sees
   double walls_m_ = 0.0;
   double hidden_m_ = 0.0;
-  std::vector<Segment> walls_;  ///< from floor to ceiling
+  double standing_free_m_ = 0.0;  ///< of it
+  std::vector<Segment> walls_;    ///< from floor to ceiling
   std::vector<Point> free_places_;
 };
 

@@ -19,7 +19,7 @@ constexpr double kOffCorner_m = 0.15;     // of things on walls
 constexpr double kBetweenThings_m = 0.2;  // things
 constexpr double kFrontOfDoor_m = 0.6;
 constexpr double kInFront_m = 0.03;   // of its wall: where a thing is asked for
-constexpr double kAisle_m = 0.9;      // around what stands free
+constexpr double kAisle_m = 0.75;     // around what stands free
 constexpr double kMappedShare = 0.7;  // of the furniture that cannot easily be moved
 constexpr double kMappedBoxes = 0.4;  // of the boxes
 constexpr int kPlacesTried = 8;       // to find a place
@@ -119,6 +119,7 @@ class Furnisher {
   [[nodiscard]] Point opposite(const Point& at) const { return low_ + high_ - at; }
 
   [[nodiscard]] bool is_free(const Point& at, double half_m, double front_m) const {
+    if (in_pairs_ && (at - opposite(at)).norm() < 2.0 * half_m + std::max(kBetweenThings_m, front_m)) return false;
     return std::none_of(taken_.begin(), taken_.end(), [&](const Taken& other) {
       return (at - other.at).norm() < half_m + other.half_m + std::max({kBetweenThings_m, front_m, other.front_m});
     });
@@ -176,19 +177,19 @@ void furnish(const Room& room, const std::vector<Door>& doors, bool in_pairs, Bu
   furnisher.add_windows();
   switch (room.use) {
     case RoomUse::kCorridor:
-      furnisher.add_shelves(draw_count(random, 0, 2));
-      furnisher.add_posters(draw_count(random, 3, 7));
+      furnisher.add_shelves(draw_count(random, 1, 3));
+      furnisher.add_posters(draw_count(random, 4, 9));
       break;
     case RoomUse::kOffice:
-      furnisher.add_shelves(draw_count(random, 1, 3));
-      furnisher.add_posters(draw_count(random, 1, 3));
-      furnisher.add_boxes(draw_count(random, 0, 2));
+      furnisher.add_shelves(draw_count(random, 2, 4));
+      furnisher.add_posters(draw_count(random, 2, 4));
+      furnisher.add_boxes(draw_count(random, 1, 3));
       break;
     case RoomUse::kHall:
       furnisher.add_pillars(in_pairs ? 1 : draw_count(random, 2, 6));
-      furnisher.add_shelves(draw_count(random, 1, 3));
-      furnisher.add_posters(draw_count(random, 3, 6));
-      furnisher.add_boxes(in_pairs ? 1 : draw_count(random, 2, 5));
+      furnisher.add_shelves(draw_count(random, 2, 5));
+      furnisher.add_posters(draw_count(random, 4, 8));
+      furnisher.add_boxes(in_pairs ? 1 : draw_count(random, 3, 6));
       break;
   }
 }
