@@ -121,10 +121,11 @@ struct Localizer::State {
   void remember(const Localization& fix);
 };
 
-/// Odometry's motion; else what the latest velocity predicts; nothing before the first scene.
+/// Odometry's motion, which the paper's method does without; else what the latest velocity predicts; nothing before the
+/// first scene.
 PoseEstimate Localizer::State::predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const {
   if (history.empty()) return {};
-  if (motion && (params.method == perception::Method::kDefault || !absolute)) return *motion;
+  if (motion && params.method == perception::Method::kDefault) return *motion;
   return predictor.predict(sensors::seconds_between(history.latest().time, time));
 }
 
@@ -245,7 +246,7 @@ void Localizer::State::solve(const Scene& scene, const SplitPose& predicted) {
 }
 
 /// What continues no track of the map is matched to the map, walls before points, from a pose that every round knows
-/// better.
+/// better. The paper's method looks once, from the pose that the tracks gave (Clerentin et al., sec. 4.2).
 void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted) {
   const auto add = [&](const std::vector<MapMatch>& found) {
     for (const MapMatch& match : found) {
@@ -256,7 +257,8 @@ void Localizer::State::match_map(const Scene& scene, const SplitPose& predicted)
     return !found.empty();
   };
   MapMatcher& matcher = history.empty() ? first_matcher : later_matcher;
-  for (int round = 0; round < params.matching_rounds; ++round) {
+  const bool once = params.method == perception::Method::kPaper && !history.empty();
+  for (int round = 0; round < (once ? 1 : params.matching_rounds); ++round) {
     list_unmatched(scene);
     const bool walls = add(matcher.match_walls(scene, unmatched, estimate()));
     list_unmatched(scene);
@@ -385,8 +387,9 @@ void Localizer::State::start_tracks(const Scene& scene) {
 }
 
 /// A wrong match shows as a residual that the pose does not explain. Once may be bad luck; a track that goes on is
-/// somebody else.
+/// somebody else. Under the paper's method a track keeps its landmark as long as it lives.
 void Localizer::State::drop_contradicting_landmarks() {
+  if (params.method == perception::Method::kPaper) return;
   for (std::size_t k = 0; k < solution.outlier.size(); ++k) {
     const int index = observations[k].track;
     if (index < 0) continue;
@@ -435,22 +438,24 @@ Integrity Localizer::State::watch() {
 }
 
 /// Belief and status of an absolute pose. Where nothing is seen there is no evidence against it: what was believed
-/// fades into not knowing.
+/// fades into not knowing. The paper's method knows its p + 2 criteria alone.
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   evidence.tracks = tracker.tracks();
   const bool on_plan = evidence.scan_agreement && agreement_belief(evidence, params.belief).no < 0.5;
   unchecked = on_plan ? 0 : unchecked + 1;
   const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
+  const bool paper = params.method == perception::Method::kPaper;
   const evidence::FusedBinaryMass belief =
-      scene.primitives.empty() ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
-                               : localization_belief(evidence, params.belief);
+      scene.primitives.empty() && !paper
+          ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
+          : localization_belief(evidence, params.belief);
   fix.belief = belief.mass;
   fix.conflict = belief.conflict;
   fix.matched = matched_before = evidence.matched;
   fix.innovation = solution.prior_mahalanobis_squared;
-  if (fix.innovation > params.status.max_innovation)
+  if (!paper && fix.innovation > params.status.max_innovation)
     fix.belief = evidence::discount(fix.belief, params.contradiction_reliability);
-  if (params.method == perception::Method::kDefault && unchecked > params.checked_for)
+  if (!paper && unchecked > params.checked_for)
     fix.belief = evidence::discount(fix.belief, params.unchecked_reliability);
   fix.unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
   fix.off_plan = agreement_belief(evidence, params.belief).no > 0.0;
