@@ -31,11 +31,13 @@ ReproducedDrive localize(const PlayedDrive& played, Method method) {
     localizer.with_path(acquisition);
     const perception::Scene& scene = observer.observe(acquisition);
     const localization::Localization fix = localizer.update(scene, acquisition.motion);
+    const std::optional<geometry::Pose2> truth = evaluation::truth_at(played.dataset.truth, fix.time);
     drive.see(scene);
+    drive.matches += evaluation::check_matches(scene, localizer.tracks(), localizer.map(), truth.value());
     drive.history.push_back({.localization = fix,
                              .tracks = results::sample(localizer.tracks()),
                              .mean_conflict = scene.mean_conflict,
-                             .truth = evaluation::truth_at(played.dataset.truth, fix.time)});
+                             .truth = truth});
   }
   return drive;
 }

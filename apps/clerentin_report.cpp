@@ -43,6 +43,10 @@ constexpr std::array kFigures{
            [](const ReproducedFigures& f) {
              return f.within_m.count > 0 ? std::optional(100.0 * f.within_m.mean()) : std::nullopt;
            }},
+    Figure{"wrong_matches_percent", "landmarks that are matched wrongly [%]", "none", 1,
+           [](const ReproducedFigures& f) {
+             return f.wrong_matches ? std::optional(100.0 * *f.wrong_matches) : std::nullopt;
+           }},
     Figure{"mean_conflict", "mean conflict of the five criteria", "0.13", 3,
            [](const ReproducedFigures& f) -> std::optional<double> { return f.mean_conflict; }},
     Figure{"until_lost", "acquisitions from the last sighting to the loss", "5", 1,

@@ -91,10 +91,12 @@ int landmarks_tracked(const Moment& moment) {
 ReproducedFigures reproduced_figures(std::span<const ReproducedDrive> drives, const ReproductionParams& params) {
   ReproducedFigures figures;
   double conflict = 0.0, segments = 0.0;
+  MatchCounts matches;
   for (const ReproducedDrive& drive : drives) {
     const auto seen = static_cast<double>(drive.conflict.segments());
     conflict += seen * drive.conflict.mean();
     segments += seen;
+    matches += drive.matches;
     add_tracks(drive.history, params, figures);
     for (const Moment& moment : drive.history) {
       const geometry::Pose2& pose = moment.localization.estimate.pose;
@@ -112,6 +114,7 @@ ReproducedFigures reproduced_figures(std::span<const ReproducedDrive> drives, co
   figures.mean_heading_rad /= figures.acquisitions;
   figures.mean_belief_yes /= figures.acquisitions;
   figures.mean_conflict = segments > 0.0 ? conflict / segments : 0.0;
+  if (matches.matches > 0) figures.wrong_matches = matches.wrong_share();
   figures.belief_follows_tracks = belief_follows_tracks(drives);
   return figures;
 }

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "evaluation/match_check.hpp"
 #include "evaluation/track_life.hpp"
 #include "results/history.hpp"
 
@@ -41,6 +42,7 @@ struct ReproducedDrive {
   results::History history;
   results::ConflictStatistics conflict;
   std::array<MassSpread, 4> masses;  ///< m_prim by PrimitiveType, of primitives with a segment
+  MatchCounts matches;               ///< against the truth
 
   void see(const perception::Scene& scene);
 };
@@ -58,14 +60,16 @@ struct ReproducedFigures {
   Spread within_m;             ///< position errors of the acquisitions up to ReproductionParams::within_m
   double mean_conflict = 0.0;  ///< of the five criteria, over the segments of all sensed maps (sec. 3.1)
   Spread until_lost;           ///< acquisitions from a landmark's last sighting to the loss of its track (fig. 21)
-  int walls_between = 0;       ///< tracks that went on as a wall and back (fig. 22)
+  std::optional<double> wrong_matches;  ///< share of the matches; nothing without any
+  int walls_between = 0;                ///< tracks that went on as a wall and back (fig. 22)
   double mean_belief_yes = 0.0;
   /// Probability that m_l(YES) is larger in an acquisition that tracks more landmarks than the median one than in one
   /// that tracks fewer (fig. 23); nothing where all track equally many.
   std::optional<double> belief_follows_tracks;
 };
 
-/// Precondition: every moment has a truth; there is at least one.
+/// Precondition: every moment has a truth.
+/// \throws std::logic_error if there is no acquisition
 [[nodiscard]] ReproducedFigures reproduced_figures(std::span<const ReproducedDrive> drives,
                                                    const ReproductionParams& params = {});
 

@@ -167,6 +167,19 @@ TEST_F(Command, ReproducePutsThePaperBesideBothMethodsOnTheSameReadings) {
   }
 }
 
+TEST_F(Command, ThePageOfTheReproductionsShowsTheTableThatReproducePrints) {
+  write_small_world();
+  const std::string printed = credo("reproduce clerentin --seeds 1 --ways small.yaml").out;
+  const std::string page = text_of(CREDO_SOURCE_DIR "/docs/reproduce.md");
+  std::istringstream table(page.substr(page.find("mean position error [cm]")));
+  int lines = 0;
+  for (std::string line; std::getline(table, line) && line != "```"; ++lines) {
+    constexpr std::size_t kWordsAndPaper = 63;  // what stands before our own numbers
+    EXPECT_THAT(printed, HasSubstr(line.substr(0, kWordsAndPaper)));
+  }
+  EXPECT_GT(lines, 20);
+}
+
 TEST_F(Command, ReproduceLeavesAReportAndPictures) {
   write_small_world();
   const std::string command = "reproduce clerentin --seeds 1 --ways small.yaml --out out --pictures out/pictures";
