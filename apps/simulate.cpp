@@ -41,23 +41,6 @@ std::vector<fs::path> world_folders() {
   return {binary.parent_path() / ".." / "share" / "credo" / "worlds", fs::path(CREDO_WORLDS)};
 }
 
-/// A file, or the name of a world that comes with Credo.
-fs::path find_world(const std::string& name) {
-  if (fs::exists(name)) return name;
-  std::vector<std::string> known;
-  for (const fs::path& folder : world_folders()) {
-    if (fs::is_regular_file(folder / (name + ".yaml"))) return folder / (name + ".yaml");
-    if (!fs::is_directory(folder)) continue;
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".yaml") known.push_back(entry.path().stem().string());
-  }
-  std::sort(known.begin(), known.end());
-  known.erase(std::unique(known.begin(), known.end()), known.end());
-  std::string message = name + ": no such world file; worlds that come with credo: " + kRandomWorld;
-  for (const std::string& world : known) message += " " + world;
-  throw std::runtime_error(message);
-}
-
 sim::World world_of(const SimulateOptions& options) {
   if (options.world != kRandomWorld || fs::exists(options.world)) {
     if (!options.kind.empty()) throw std::runtime_error("--kind is for the world 'random', not for " + options.world);
@@ -66,18 +49,6 @@ sim::World world_of(const SimulateOptions& options) {
   sim::RandomWorldParams params;
   if (!options.kind.empty()) params.kind = sim::building_kind(options.kind);
   return sim::random_world(options.seed, params);
-}
-
-datasets::DatasetHeader header_of(const sim::Simulation& simulation) {
-  const sim::World& world = simulation.world();
-  return {.name = world.name,
-          .description = world.description,
-          .license = "CC0-1.0",
-          .robot_radius_m = world.robot_radius_m,
-          .initial_pose = simulation.initial_pose(),
-          .acquisition_sensor = simulation.acquisition_sensor(),
-          .rig = simulation.rig(),
-          .floor_plan = simulation.floor_plan()};
 }
 
 void write_truth_map(const sim::TruthMap& truth, const fs::path& yaml) {
@@ -135,6 +106,34 @@ void simulate(const sim::World& world, std::uint64_t seed, const fs::path& out, 
 }
 
 }  // namespace
+
+fs::path find_world(const std::string& name) {
+  if (fs::exists(name)) return name;
+  std::vector<std::string> known;
+  for (const fs::path& folder : world_folders()) {
+    if (fs::is_regular_file(folder / (name + ".yaml"))) return folder / (name + ".yaml");
+    if (!fs::is_directory(folder)) continue;
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".yaml") known.push_back(entry.path().stem().string());
+  }
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  std::string message = name + ": no such world file; worlds that come with credo: " + std::string(kRandomWorld);
+  for (const std::string& world : known) message += " " + world;
+  throw std::runtime_error(message);
+}
+
+datasets::DatasetHeader header_of(const sim::Simulation& simulation) {
+  const sim::World& world = simulation.world();
+  return {.name = world.name,
+          .description = world.description,
+          .license = "CC0-1.0",
+          .robot_radius_m = world.robot_radius_m,
+          .initial_pose = simulation.initial_pose(),
+          .acquisition_sensor = simulation.acquisition_sensor(),
+          .rig = simulation.rig(),
+          .floor_plan = simulation.floor_plan()};
+}
 
 void simulate_into(const sim::World& world, std::uint64_t seed, const fs::path& out, bool force) {
   about("world " + world.name, [&] { simulate(world, seed, out, force); });

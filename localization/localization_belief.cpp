@@ -30,9 +30,11 @@ evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& eviden
       evidence.detected > 0.0 ? evidence.explained / evidence.detected : std::numeric_limits<double>::quiet_NaN();
   const std::array criteria{params.count(evidence.matched), params.ratio(ratio), recognition_belief(evidence, params),
                             agreement_belief(evidence, params)};
+  const bool missed_too = params.method == perception::Method::kPaper;  // "the p tracks managed by the robot"
   std::vector<evidence::Part> parts;
   for (const tracking::Track& track : evidence.tracks) {
-    if (track.landmark == tracking::kNoLandmark || track.state != tracking::TrackState::kTracked) continue;
+    if (track.landmark == tracking::kNoLandmark) continue;
+    if (track.state != tracking::TrackState::kTracked && !missed_too) continue;
     const bool wall = track.type == perception::PrimitiveType::kWall;
     parts.push_back({track.existence, wall ? params.wall_reliability : params.other_reliability});
   }

@@ -109,10 +109,11 @@ struct Localizer::State {
   void remember(const Localization& fix);
 };
 
-/// Odometry's motion; else what the latest velocity predicts; nothing before the first scene.
+/// Odometry's motion, which the paper's method does without; else what the latest velocity predicts; nothing before the
+/// first scene.
 PoseEstimate Localizer::State::predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const {
   if (history.empty()) return {};
-  if (motion && (params.method == perception::Method::kDefault || !absolute)) return *motion;
+  if (motion && params.method == perception::Method::kDefault) return *motion;
   return predictor.predict(sensors::seconds_between(history.latest().time, time));
 }
 
@@ -351,28 +352,29 @@ Integrity Localizer::State::watch() {
 }
 
 /// Belief and status of an absolute pose. Where nothing is seen there is no evidence against it: what was believed
-/// fades into not knowing.
+/// fades into not knowing. The paper's method knows its p + 2 criteria alone.
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   LocalizationEvidence& evidence = fit.evidence;
   evidence.tracks = tracker.tracks();
   const bool on_plan = evidence.scan_agreement && agreement_belief(evidence, params.belief).no < 0.5;
   unchecked = on_plan ? 0 : unchecked + 1;
   const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
+  const bool paper = params.method == perception::Method::kPaper;
   const evidence::FusedBinaryMass belief =
-      scene.primitives.empty() ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
-                               : localization_belief(evidence, params.belief);
+      scene.primitives.empty() && !paper
+          ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
+          : localization_belief(evidence, params.belief);
   fix.belief = belief.mass;
   fix.conflict = belief.conflict;
   fix.matched = matched_before = evidence.matched;
   fix.innovation = fit.solution.prior_mahalanobis_squared;
-  if (fix.innovation > params.status.max_innovation)
+  if (!paper && fix.innovation > params.status.max_innovation)
     fix.belief = evidence::discount(fix.belief, params.contradiction_reliability);
-  if (params.method == perception::Method::kDefault && unchecked > params.checked_for)
+  if (!paper && unchecked > params.checked_for)
     fix.belief = evidence::discount(fix.belief, params.unchecked_reliability);
   fix.unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
   fix.off_plan = agreement_belief(evidence, params.belief).no > 0.0;
-  const Integrity integrity = watch();
-  fix.protection = integrity.protection;
+  if (!paper) fix.protection = watch().protection;
   if (fix.unrecognised || fix.off_plan) {
     fit.pose.independent += doubt();
     fix.estimate.covariance += doubt();
@@ -430,7 +432,8 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   if (s.absolute) s.labels.label(matches, s.tracker, s.fit);
   // 5. Start tracks; let go of landmarks that contradict the pose.
   s.start_tracks(scene);
-  if (s.absolute) s.labels.drop_contradicting(s.fit, s.tracker);
+  // Under the paper's method a track keeps its landmark as long as it lives.
+  if (s.absolute && s.params.method == perception::Method::kDefault) s.labels.drop_contradicting(s.fit, s.tracker);
   s.tracker.update(scene);
   s.labels.forget_lost(s.tracker.tracks());
 

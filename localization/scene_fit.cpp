@@ -43,7 +43,9 @@ void SceneFitter::fit(const Scene& scene, std::span<const tracking::Track> track
   fit.new_matches.clear();
   observe_tracks(scene, tracks, matches, fit);
   solve(scene, expected, fit);
-  match_map(scene, expected, given ? first_matcher_ : matcher_, fit);
+  // The paper's method looks at the map once, from the pose that the tracks gave (Clerentin et al., sec. 4.2).
+  const bool once = params_.method == perception::Method::kPaper && !given;
+  match_map(scene, expected, given ? first_matcher_ : matcher_, once ? 1 : params_.matching_rounds, fit);
 }
 
 void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& from, const SplitPose& expected,
@@ -52,7 +54,7 @@ void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& fro
   fit.new_matches.clear();
   wall_in_use_.assign(scene.segments.size(), false);
   solve(scene, {from.pose, from.covariance, Eigen::Matrix3d::Zero()}, fit);
-  match_map(scene, expected, matcher_, fit);
+  match_map(scene, expected, matcher_, params_.matching_rounds, fit);
 }
 
 void SceneFitter::gather(const Scene& scene, SceneFit& fit) const {
@@ -126,7 +128,8 @@ void SceneFitter::solve(const Scene& scene, const SplitPose& expected, SceneFit&
   fit.pose = fit.solution.pose;
 }
 
-void SceneFitter::match_map(const Scene& scene, const SplitPose& expected, MapMatcher& matcher, SceneFit& fit) {
+void SceneFitter::match_map(const Scene& scene, const SplitPose& expected, MapMatcher& matcher, int rounds,
+                            SceneFit& fit) {
   const auto add = [&](const std::vector<MapMatch>& found) {
     for (const MapMatch& match : found) {
       observe_landmark(scene, match.primitive, match.landmark, -1, fit);
@@ -135,7 +138,7 @@ void SceneFitter::match_map(const Scene& scene, const SplitPose& expected, MapMa
     if (!found.empty()) solve(scene, expected, fit);
     return !found.empty();
   };
-  for (int round = 0; round < params_.matching_rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     list_unmatched(scene, fit);
     const bool walls = add(matcher.match_walls(scene, unmatched_, fit.estimate()));
     list_unmatched(scene, fit);

@@ -80,7 +80,9 @@ class SceneFitter {
   void observe_landmark(const perception::Scene& scene, int primitive, tracking::LandmarkId landmark, int track,
                         SceneFit& fit);
   void list_unmatched(const perception::Scene& scene, const SceneFit& fit);
-  void match_map(const perception::Scene& scene, const SplitPose& expected, MapMatcher& matcher, SceneFit& fit);
+  /// What continues no track of the map, walls before points, from a pose that every round knows better.
+  void match_map(const perception::Scene& scene, const SplitPose& expected, MapMatcher& matcher, int rounds,
+                 SceneFit& fit);
   void solve(const perception::Scene& scene, const SplitPose& expected, SceneFit& fit);
 
   const LandmarkMap* map_;

@@ -184,6 +184,25 @@ TEST(Localizer, PaperMethodFollowsTheStepsOfThePaper) {
   EXPECT_LT(worst, 0.13);  // the mean error that Clerentin et al. report
 }
 
+TEST(Localizer, PaperMethodIsTheSameWhateverOdometrySays) {
+  for (const bool absolute : {true, false}) {
+    const std::optional<PoseEstimate> start = absolute ? std::optional(given({1.0, 1.5, 0.0})) : std::nullopt;
+    Pipeline with(room(), start, perception::Method::kPaper), without(room(), start, perception::Method::kPaper);
+    Drive drive(8);
+    for (int k = 0; k < 6; ++k) {
+      sensors::Acquisition acquisition = drive.acquire({1.0 + 0.3 * k, 1.5, 0.0}, {0.5, 0.1, 0.2});  // it lies
+      const Localization fix = with(acquisition);
+      acquisition.motion.reset();
+      acquisition.path = {};
+      const Localization other = without(acquisition);
+      EXPECT_EQ(fix.estimate.pose.x, other.estimate.pose.x) << k;
+      EXPECT_EQ(fix.estimate.pose.theta, other.estimate.pose.theta) << k;
+      EXPECT_EQ(fix.estimate.covariance, other.estimate.covariance) << k;
+      EXPECT_EQ(fix.belief, other.belief) << k;
+    }
+  }
+}
+
 TEST(Localizer, PoseAtAnEarlierTimeLiesBetweenTheFixes) {
   Drive drive(8);
   Pipeline localize(room(), given({1.0, 1.5, 0.0}));
