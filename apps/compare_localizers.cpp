@@ -20,6 +20,7 @@
 #include "evaluation/baseline_ekf.hpp"
 #include "evaluation/baseline_icp.hpp"
 #include "evaluation/baseline_mcl.hpp"
+#include "evaluation/baseline_mrpt.hpp"
 #include "evaluation/baseline_table.hpp"
 #include "results/pictures.hpp"
 #include "results/plot.hpp"
@@ -90,6 +91,16 @@ Contender oracle_icp(const datasets::DatasetHeader& header, std::uint64_t seed) 
           }};
 }
 
+/// Without an update where MRPT is missing: the table says so.
+Contender mrpt(const datasets::DatasetHeader& header, std::uint64_t seed) {
+  const char* const name = "MRPT, 500 particles";
+  evaluation::MrptParams params;
+  params.seed = static_cast<std::uint32_t>(seed);
+  auto filter = evaluation::MrptLocalizer::create(*header.floor_plan, header.rig, *header.initial_pose, params);
+  if (!filter) return {name, "built without MRPT (libmrpt-slam-dev)", nullptr};
+  return contender(name, std::move(*filter));
+}
+
 std::vector<Contender> baselines(const datasets::DatasetHeader& header, std::uint64_t seed) {
   using namespace evaluation;
   const geometry::FloorPlan& plan = *header.floor_plan;
@@ -110,6 +121,7 @@ std::vector<Contender> baselines(const datasets::DatasetHeader& header, std::uin
   all.push_back(contender("EKF, JCBB", ekf(EkfAssociation::kJointCompatibility)));
   all.push_back(contender("MCL, 500 particles", mcl(500)));
   all.push_back(contender("MCL, 2000 particles", mcl(2000)));
+  all.push_back(mrpt(header, seed));
   all.push_back(contender("ICP, odometry start", IcpLocalizer(plan, header.rig, initial)));
   all.push_back(oracle_icp(header, seed));
   return all;
@@ -154,6 +166,7 @@ std::vector<Contender> compete(const datasets::Dataset& dataset, std::uint64_t s
     const perception::Scene& paper_scene = paper.observe(acquisition);
     const auto truth = evaluation::truth_at(dataset.truth, scene.time);
     for (Contender& c : all) {
+      if (!c.update) continue;
       const Stopwatch watch;
       const localization::Localization fix = c.update({i, scene, paper_scene, acquisition.motion, truth});
       c.seconds += watch.seconds();
@@ -168,12 +181,13 @@ std::vector<Contender> compete(const datasets::Dataset& dataset, std::uint64_t s
 /// Distance to the truth over time. Baselines that fail go far: the chart ends at ten times the median of all.
 cv::Mat picture(const datasets::Dataset& dataset, const std::vector<Contender>& all) {
   using namespace results;
-  constexpr Color kColors[] = {colors::kMuted, colors::kPurple, colors::kYellow, colors::kOrange,
+  constexpr Color kColors[] = {colors::kMuted, colors::kPurple, colors::kYellow, colors::kOrange, colors::kGreen,
                                colors::kSky,   colors::kFaint,  colors::kRed,    colors::kBlue};
   Plot plot("Position error on " + dataset.header.name, "time [s]", "error [cm]");
   std::vector<LegendEntry> entries;
   std::vector<double> everything;
   for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].rows.empty()) continue;
     entries.push_back({kColors[k % std::size(kColors)], all[k].name});
     std::vector<double> time, error;
     for (const LocalizationRow& row : all[k].rows) {
@@ -224,7 +238,8 @@ struct Tables {
     titles.push_back(title);
     std::vector<LocalizerLine>& lines = tables.emplace_back();
     for (std::size_t k = 0; k < names.size(); ++k)
-      lines.push_back({names[k].name, names[k].note, evaluation::summarise(records[k])});
+      lines.push_back({names[k].name, names[k].note,
+                       names[k].rows.empty() ? std::nullopt : std::optional(evaluation::summarise(records[k]))});
   }
 };
 
@@ -240,7 +255,7 @@ void print_tables(const Tables& all, const LocalizersOptions& options) {
     return;
   }
   for (std::size_t t = 0; t < all.tables.size(); ++t)
-    std::printf("%s: %d acquisitions\n%s\n", all.titles[t].c_str(), all.tables[t].front().summary->acquisitions,
+    std::printf("%s: %d acquisitions\n%s\n", all.titles[t].c_str(), all.tables[t].back().summary->acquisitions,
                 evaluation::to_text(all.tables[t]).c_str());
   std::printf("%s", evaluation::localizer_table_terms().c_str());
 }
