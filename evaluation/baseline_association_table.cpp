@@ -167,15 +167,19 @@ std::vector<int> AssociationComparison::by_credo(const std::vector<Landmark>& la
 void AssociationComparison::count(AssociationCounts& counts, const std::vector<Landmark>& landmarks,
                                   const std::vector<int>& chosen, const Scene& now,
                                   const geometry::Pose2& truth) const {
+  const auto is_right = [&](std::size_t t, int primitive) {
+    const Primitive& seen = now.primitives[static_cast<std::size_t>(primitive)];
+    return seen.type != PrimitiveType::kWall &&
+           !is_wrong_match(seen, now.camera_origin, *map_, landmarks[t].id, truth, params_.truth);
+  };
+  std::vector<int> left;
+  for (int i = 0; i < static_cast<int>(now.primitives.size()); ++i)
+    if (std::ranges::find(chosen, i) == chosen.end()) left.push_back(i);
   for (std::size_t t = 0; t < landmarks.size(); ++t) {
-    const auto is_right = [&](const Primitive& seen) {
-      return seen.type != PrimitiveType::kWall &&
-             !is_wrong_match(seen, now.camera_origin, *map_, landmarks[t].id, truth, params_.truth);
-    };
     if (chosen[t] >= 0)
-      ++(is_right(now.primitives[static_cast<std::size_t>(chosen[t])]) ? counts.right : counts.wrong);
+      ++(is_right(t, chosen[t]) ? counts.right : counts.wrong);
     else
-      ++(std::ranges::any_of(now.primitives, is_right) ? counts.missed : counts.absent);
+      ++(std::ranges::any_of(left, [&](int i) { return is_right(t, i); }) ? counts.missed : counts.absent);
   }
 }
 
@@ -192,7 +196,7 @@ std::string association_table_terms(const MatchCheckParams& p) {
   return fmt::format(
       "landmarks that the scene before shows, predicted from the true pose and odometry, looked for in the next scene\n"
       "wrong: predicted from the true pose, the observation is off by > {} sigma and by > {} deg or {} m\n"
-      "missed: not continued, although an observation of the landmark is there; absent: not continued, rightly\n"
+      "missed: not continued, although an observation of the landmark is left; absent: not continued, rightly\n"
       "wrong share: of the matches that were made; recall: right, of right and missed\n"
       "all but the last see azimuths and types alone; the last sees ranges, types and polarities\n",
       p.sigmas, p.angle_deg, p.distance_m);

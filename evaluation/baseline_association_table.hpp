@@ -19,8 +19,8 @@ struct AssociationCounts {
   std::string name;
   long right = 0;
   long wrong = 0;   ///< continued by an observation that is not the landmark's
-  long missed = 0;  ///< not continued, although an observation of the landmark is there
-  long absent = 0;  ///< not continued, rightly: no observation is the landmark's
+  long missed = 0;  ///< not continued, although an observation of the landmark is left over
+  long absent = 0;  ///< not continued, rightly: no observation that is left is the landmark's
 
   AssociationCounts& operator+=(const AssociationCounts& other);
   /// Of the matches that were made. Nothing without matches.

@@ -37,6 +37,14 @@ std::optional<double> auroc_of(const LocalizerRecord& record) {
   return auroc(good, bad);
 }
 
+/// As a field of a table of comma-separated values (RFC 4180).
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char letter : text) result += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return result + '"';
+}
+
 }  // namespace
 
 results::ProtectionLevels gaussian_protection(const geometry::PoseEstimate& estimate) {
@@ -141,7 +149,7 @@ std::string localizer_csv_header() {
 std::string to_csv(const std::string& dataset, std::span<const LocalizerLine> lines) {
   std::string text;
   for (const LocalizerLine& line : lines) {
-    text += fmt::format("{},{},", dataset, line.name);
+    text += fmt::format("{},{},", quoted(dataset), quoted(line.name));
     if (line.summary) {
       const LocalizerSummary& s = *line.summary;
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},", s.acquisitions, s.mean_position_m, s.p95_position_m,
@@ -150,7 +158,7 @@ std::string to_csv(const std::string& dataset, std::span<const LocalizerLine> li
     } else {
       text += ",,,,,,,,,,,";
     }
-    text += line.note + '\n';
+    text += quoted(line.note) + '\n';
   }
   return text;
 }

@@ -65,10 +65,11 @@ TEST(LocalizerTable, DrivesAddUpAndWhatHasNoTruthIsLeftOut) {
 
 TEST(LocalizerTable, SaysWhatDidNotRun) {
   const std::vector<LocalizerLine> lines{
-      {"somebody's filter", "built without it"},
+      {"somebody's \"filter\"", "built without it"},
       {"ours", "", summarise(record(std::vector{row(0, 0.1, 0.1, 1.0)}, at_rest(1), 0.0))}};
   EXPECT_THAT(to_text(lines), HasSubstr("not run: built without it"));
-  EXPECT_THAT(to_csv("a place", lines), HasSubstr("a place,somebody's filter,,,,,,,,,,,,built without it\n"));
+  EXPECT_THAT(to_csv("a place", lines),
+              HasSubstr("a place,\"somebody's \"\"filter\"\"\",,,,,,,,,,,,built without it\n"));
   const auto commas = [](const std::string& text) { return std::ranges::count(text, ','); };
   EXPECT_EQ(commas(to_csv("a", lines)), 2 * commas(localizer_csv_header()));
 }
