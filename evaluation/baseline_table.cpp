@@ -136,7 +136,8 @@ std::string localizer_table_terms(const ScoreParams& p) {
       "  longest axis, and heading\n"
       "misleading: available, yet the error is above the protection level\n"
       "NEES: mean over the acquisitions, correlated in time; 3 expected\n"
-      "AUROC: of each localizer's own confidence against lost; '-' unless some are lost and some not\n"
+      "AUROC: of each localizer's own confidence against lost; '-' unless some are lost and some not;\n"
+      "  over fewer than 200 lost acquisitions an indication, no more\n"
       "ms: of one update on a scene that is there already\n",
       p.lost_above_m, p.lost_above_deg, p.available_level_m, p.available_level_deg, kProtectionFactor);
 }
