@@ -136,7 +136,7 @@ Integrity integrity(std::span<const EvaluatedRun> runs, const ScoreParams& param
       if (sample.placed()) placed.push_back(&sample);
     }
   }
-  if (placed.empty()) throw std::runtime_error("all acquisitions with a truth are initializing: nothing to judge");
+  if (placed.empty()) throw std::invalid_argument("all acquisitions with a truth are initializing: nothing to judge");
   std::vector<double> probabilities;
   std::vector<evidence::BinaryMass> beliefs;
   std::vector<bool> lost, correct;
@@ -156,7 +156,7 @@ Integrity integrity(std::span<const EvaluatedRun> runs, const ScoreParams& param
 }
 
 std::vector<NamedFigure> figures(const Integrity& i, const KidnapParams& kidnap) {
-  const DetectionCurve& belief = i.detectors.front().curve;
+  const DetectionCurve belief = i.detectors.empty() ? DetectionCurve{} : i.detectors.front().curve;
   return {{"lost", i.lost.share()},
           {"available", share_of(i.available)},
           {"misleading", share_of(i.misleading)},

@@ -78,7 +78,7 @@ struct Integrity {
   [[nodiscard]] Proportion recovered(int within_acquisitions) const;  ///< of the kidnaps
 };
 
-/// \throws std::runtime_error if no acquisition of any run has a pose in the map
+/// \throws std::invalid_argument if no acquisition of any run has a pose in the map
 [[nodiscard]] Integrity integrity(std::span<const EvaluatedRun> runs, const ScoreParams& params = {});
 
 /// A number by the name under which a table or a gate knows it; nothing where there is nothing to measure.
@@ -86,6 +86,7 @@ struct NamedFigure {
   const char* name;
   std::optional<double> value;
 };
+/// Always the same names in the same order.
 [[nodiscard]] std::vector<NamedFigure> figures(const Integrity& integrity, const KidnapParams& kidnap = {});
 
 /// The tables with the meaning of their words.

@@ -82,7 +82,7 @@ LocalizationScore score(std::span<const LocalizationRow> rows, std::span<const d
   std::vector<Sample> placed;
   std::copy_if(samples.begin(), samples.end(), std::back_inserter(placed), [](const Sample& s) { return s.placed(); });
   if (placed.empty())
-    throw std::runtime_error("all acquisitions with a truth are initializing: no pose in the map, no error");
+    throw std::invalid_argument("all acquisitions with a truth are initializing: no pose in the map, no error");
   LocalizationScore result{.acquisitions = static_cast<int>(rows.size()),
                            .with_truth = static_cast<int>(samples.size()),
                            .placed = static_cast<int>(placed.size())};

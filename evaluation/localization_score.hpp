@@ -41,7 +41,7 @@ struct LocalizationScore {
 };
 
 /// \param degraded  when sensors were degraded, all such times; nothing where nobody recorded them
-/// \throws std::runtime_error if no row has both a truth and a pose in the map
+/// \throws std::invalid_argument if no row has both a truth and a pose in the map
 [[nodiscard]] LocalizationScore score(std::span<const results::LocalizationRow> rows,
                                       std::span<const datasets::TimedPose> truth,
                                       const std::optional<std::vector<Interval>>& degraded = {},

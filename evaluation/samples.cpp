@@ -71,7 +71,7 @@ std::vector<Sample> samples_of(std::span<const results::LocalizationRow> rows,
     samples.push_back({.localization = row.localization, .truth = *pose, .degraded = within(degraded, time)});
   }
   if (samples.empty()) {
-    throw std::runtime_error(
+    throw std::invalid_argument(
         "no acquisition has a ground truth at its time: do the result and the reference belong together?");
   }
   return samples;

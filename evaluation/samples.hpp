@@ -67,13 +67,13 @@ struct EvaluatedRun {
 
 /// The rows that have a truth.
 /// \param degraded  all times when sensors were degraded
-/// \throws std::runtime_error if no row has one
+/// \throws std::invalid_argument if no row has one
 [[nodiscard]] std::vector<Sample> samples_of(std::span<const results::LocalizationRow> rows,
                                              std::span<const datasets::TimedPose> truth,
                                              std::span<const Interval> degraded = {}, const ScoreParams& params = {});
 
 /// \param events  by time; nothing where nobody recorded them
-/// \throws std::runtime_error if no row has a truth
+/// \throws std::invalid_argument if no row has a truth
 [[nodiscard]] EvaluatedRun evaluated_run(std::string name, std::span<const results::LocalizationRow> rows,
                                          std::span<const datasets::TimedPose> truth,
                                          const std::optional<std::vector<datasets::Event>>& events = {},

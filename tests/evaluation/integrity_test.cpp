@@ -115,8 +115,8 @@ TEST(Integrity, TheTextSaysWhatIsNotKnown) {
 }
 
 TEST(Integrity, RefusesRunsWithoutAPose) {
-  EXPECT_THROW((void)integrity({}), std::runtime_error);
-  EXPECT_THROW((void)integrity(std::vector{run({sample(0.0, 0.2, Status::kInitializing)})}), std::runtime_error);
+  EXPECT_THROW((void)integrity({}), std::invalid_argument);
+  EXPECT_THROW((void)integrity(std::vector{run({sample(0.0, 0.2, Status::kInitializing)})}), std::invalid_argument);
 }
 
 }  // namespace

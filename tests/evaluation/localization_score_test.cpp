@@ -103,7 +103,7 @@ TEST(LocalizationScore, NeesAndSigmasAreThoseOfTheCovariance) {
 TEST(LocalizationScore, RefusesATruthOfAnotherTime) {
   std::vector<datasets::TimedPose> other{{100 * kSecond, {}}};
   EXPECT_THAT([&] { (void)score(std::vector{row(0, 0, 0, 0.9)}, other); },
-              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("belong together")));
+              testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("belong together")));
 }
 
 TEST(LocalizationScore, WithoutAPoseInTheMapThereIsAnAlertAndNoError) {
@@ -114,7 +114,7 @@ TEST(LocalizationScore, WithoutAPoseInTheMapThereIsAnAlertAndNoError) {
   EXPECT_EQ(s.lost, 0.0);
   EXPECT_EQ(s.false_alert, 0.0);
   EXPECT_THAT(to_text(s), testing::HasSubstr("1 of them are initializing"));
-  EXPECT_THROW((void)score_of({row(0, 0.0, 0, 0.5, Status::kInitializing)}), std::runtime_error);
+  EXPECT_THROW((void)score_of({row(0, 0.0, 0, 0.5, Status::kInitializing)}), std::invalid_argument);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST(EvaluatedRun, KeepsWhatHasATruthAndWhatIsKnownToHaveHappened) {
 TEST(EvaluatedRun, RefusesATruthOfAnotherTime) {
   const std::vector<datasets::TimedPose> truth{{100 * kSecond, {}}};
   EXPECT_THAT([&] { (void)evaluated_run("drive", std::vector{row(0)}, truth); },
-              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("belong together")));
+              testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("belong together")));
 }
 
 TEST(DegradedIntervals, RunFromTheFirstEventOfASensorToItsRestoration) {
