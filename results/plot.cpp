@@ -94,6 +94,13 @@ Plot& Plot::band(std::vector<double> x, std::vector<double> low, std::vector<dou
   return *this;
 }
 
+Plot& Plot::whiskers(std::vector<double> x, std::vector<double> low, std::vector<double> high, Color color,
+                     std::string label, double thickness) {
+  series_.push_back(
+      {Kind::kWhiskers, std::move(x), std::move(low), std::move(high), color, std::move(label), thickness});
+  return *this;
+}
+
 Plot& Plot::level(double y, Color color, std::string label) {
   series_.push_back({Kind::kLevel, {}, {y}, {}, color, std::move(label)});
   return *this;
@@ -102,6 +109,11 @@ Plot& Plot::level(double y, Color color, std::string label) {
 Plot& Plot::strip(std::vector<double> x, std::vector<Color> colors) {
   strip_x_ = std::move(x);
   strip_colors_ = std::move(colors);
+  return *this;
+}
+
+Plot& Plot::x_limits(double low, double high) {
+  x_limits_ = {low, high};
   return *this;
 }
 
@@ -131,6 +143,13 @@ struct Range {
   }
 };
 
+void draw_whisker(Canvas& canvas, const Point& low, const Point& high, Color color, double thickness) {
+  const Point half_cap(3.0, 0.0);
+  canvas.line(low, high, color, thickness);
+  canvas.line(low - half_cap, low + half_cap, color, thickness);
+  canvas.line(high - half_cap, high + half_cap, color, thickness);
+}
+
 }  // namespace
 
 Plot::Axes Plot::fit(Point corner, Point opposite) const {
@@ -142,7 +161,7 @@ Plot::Axes Plot::fit(Point corner, Point opposite) const {
   }
   xs.include(strip_x_);
   Axes axes;
-  std::tie(axes.x0, axes.x1) = xs.widened(0.0);
+  std::tie(axes.x0, axes.x1) = x_limits_.empty() ? xs.widened(0.0) : std::pair{x_limits_[0], x_limits_[1]};
   std::tie(axes.y0, axes.y1) = y_limits_.empty() ? ys.widened(0.06) : std::pair{y_limits_[0], y_limits_[1]};
   if (!(axes.x1 > axes.x0)) axes.x1 = axes.x0 + 1.0;
   if (!(axes.y1 > axes.y0)) axes.y1 = axes.y0 + 1.0;
@@ -169,8 +188,13 @@ void Plot::draw_series(Canvas& canvas, const Axes& axes, const Series& s) const 
     run_high.clear();
   };
   for (std::size_t i = 0; i < s.x.size(); ++i) {
-    if (!std::isfinite(s.y[i]) || (s.kind == Kind::kBand && !std::isfinite(s.high[i]))) {
+    const bool interval = s.kind == Kind::kBand || s.kind == Kind::kWhiskers;
+    if (!std::isfinite(s.y[i]) || (interval && !std::isfinite(s.high[i]))) {
       flush();
+      continue;
+    }
+    if (s.kind == Kind::kWhiskers) {
+      draw_whisker(canvas, axes.at(s.x[i], s.y[i]), axes.at(s.x[i], s.high[i]), s.color, s.size);
       continue;
     }
     if (s.kind == Kind::kPoints) {

@@ -33,17 +33,21 @@ class Plot {
   /// The area between two curves.
   Plot& band(std::vector<double> x, std::vector<double> low, std::vector<double> high, Color color,
              std::string label = "", double opacity = 0.25);
+  /// From low[i] to high[i] at x[i], with caps: an interval for each value.
+  Plot& whiskers(std::vector<double> x, std::vector<double> low, std::vector<double> high, Color color,
+                 std::string label = "", double thickness = 1.2);
   /// A horizontal line across.
   Plot& level(double y, Color color, std::string label = "");
   /// A coloured strip along the foot of the chart from x[i] to x[i + 1] (the last as long as the one before).
   Plot& strip(std::vector<double> x, std::vector<Color> colors);
+  Plot& x_limits(double low, double high);
   Plot& y_limits(double low, double high);
 
   /// Into a box of the canvas, labels included.
   void draw(Canvas& canvas, Canvas::Point corner, Canvas::Point opposite) const;
 
  private:
-  enum class Kind { kLine, kPoints, kBand, kLevel };
+  enum class Kind { kLine, kPoints, kBand, kWhiskers, kLevel };
   struct Series {
     Kind kind;
     std::vector<double> x, y, high;
@@ -63,7 +67,7 @@ class Plot {
   std::vector<Series> series_;
   std::vector<double> strip_x_;
   std::vector<Color> strip_colors_;
-  std::vector<double> y_limits_;  // empty: from the series
+  std::vector<double> x_limits_, y_limits_;  // empty: from the series
 };
 
 }  // namespace credo::results
