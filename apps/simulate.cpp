@@ -15,6 +15,8 @@
 #include "apps/terminal.hpp"
 #include "datasets/dataset_writer.hpp"
 #include "datasets/map_server.hpp"
+#include "sim/degradation.hpp"
+#include "sim/random_world.hpp"
 #include "sim/simulation.hpp"
 
 namespace credo::apps {
@@ -25,9 +27,13 @@ namespace fs = std::filesystem;
 struct SimulateOptions {
   std::string world;
   std::string out;
+  std::string kind;
+  std::string degradation = "nominal";
   std::uint64_t seed = 1;
   bool force = false;
 };
+
+const char* const kRandomWorld = "random";
 
 std::vector<fs::path> world_folders() {
   std::error_code ignored;
@@ -47,9 +53,19 @@ fs::path find_world(const std::string& name) {
   }
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
-  std::string message = name + ": no such world file; worlds that come with credo:";
+  std::string message = name + ": no such world file; worlds that come with credo: " + kRandomWorld;
   for (const std::string& world : known) message += " " + world;
   throw std::runtime_error(message);
+}
+
+sim::World world_of(const SimulateOptions& options) {
+  if (options.world != kRandomWorld || fs::exists(options.world)) {
+    if (!options.kind.empty()) throw std::runtime_error("--kind is for the world 'random', not for " + options.world);
+    return sim::load_world(find_world(options.world));
+  }
+  sim::RandomWorldParams params;
+  if (!options.kind.empty()) params.kind = sim::building_kind(options.kind);
+  return sim::random_world(options.seed, params);
 }
 
 datasets::DatasetHeader header_of(const sim::Simulation& simulation) {
@@ -128,18 +144,29 @@ void add_simulate(CLI::App& app) {
   CLI::App* command = app.add_subcommand("simulate", "Plays a world into a dataset, with its ground truth.");
   command->footer(
       "  credo simulate office --out datasets/office              a world that comes with credo\n"
-      "  credo simulate my_world.yaml --out datasets/mine --seed 7");
+      "  credo simulate my_world.yaml --out datasets/mine --seed 7\n"
+      "  credo simulate random --kind l_shape --seed 7 --out datasets/l7   a building drawn from the seed\n"
+      "  credo simulate office --degraded worst --out datasets/worst      with a bad range finder, clutter and people");
   auto options = std::make_shared<SimulateOptions>();
-  command->add_option("WORLD", options->world, "a world file (YAML), or the name of a world that comes with credo")
+  command
+      ->add_option("WORLD", options->world,
+                   "a world file (YAML), the name of a world that comes with credo, or 'random'")
       ->check(a_path())
       ->required();
   command->add_option("-o,--out", options->out, "folder for the dataset")->check(a_path())->required();
   command->add_option("--seed", options->seed, "of all that is random; the same seed gives the same bytes")
       ->check(any_seed())
       ->capture_default_str();
+  std::vector<std::string> kinds;
+  for (const sim::BuildingKind kind : sim::building_kinds()) kinds.emplace_back(sim::name_of(kind));
+  command->add_option("--kind", options->kind, "of the building of 'random'")->check(CLI::IsMember(kinds));
+  command->add_option("--degraded", options->degradation, "what is made worse")
+      ->check(CLI::IsMember(sim::degradation_names()))
+      ->capture_default_str();
   command->add_flag("-f,--force", options->force, "replace a dataset that is already there");
   command->callback([options] {
-    simulate_into(sim::load_world(find_world(options->world)), options->seed, options->out, options->force);
+    simulate_into(sim::degraded(world_of(*options), options->degradation, options->seed), options->seed, options->out,
+                  options->force);
     std::printf("dataset: %s\n", options->out.c_str());
   });
 }
