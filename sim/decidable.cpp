@@ -3,6 +3,7 @@
 
 #include "sim/decidable.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -19,15 +20,16 @@ namespace {
 using geometry::Pose2;
 using Point = Eigen::Vector2d;
 
-constexpr int kDirections = 72;           // of the coarse search: 5 degrees
-constexpr double kCoarse_m = 0.2;         // between its places
-constexpr double kAlike_m = 0.3;          // a coarse difference counts at most this much
-constexpr double kSlimness = 0.6;         // of the robot that looks for places: what is on the grid must not miss any
-constexpr std::size_t kRefined = 24;      // most similar poses that are refined
-constexpr double kApart_m = 0.4;          // of which no two are nearer together, and
-constexpr double kApart_rad = 0.25;       // turned less
-constexpr double kFinest_m = 0.002;       // step of the refinement
-constexpr double kRadiansPerMetre = 0.3;  // of its steps
+constexpr int kDirections = 72;       // of the coarse search: 5 degrees
+constexpr double kCoarse_m = 0.2;     // between its places
+constexpr double kAlike_m = 0.3;      // a coarse difference counts at most this much
+constexpr double kSlimness = 0.6;     // of the robot that looks for places: what is on the grid must not miss any
+constexpr std::size_t kRefined = 24;  // most similar poses that are refined
+constexpr double kApart_m = 0.4;      // of which no two are nearer together, and
+constexpr double kApart_rad = 0.25;   // turned less
+constexpr int kSteps = 4;             // of the refinement, at each fineness
+constexpr int kShortenings = 4;       // of a step that leads to the place that is sought
+constexpr double kLongest_m = 0.2;    // of the steps
 
 /// A pose and how much what is read there differs from what is sought.
 struct Candidate {
@@ -61,17 +63,43 @@ class Comparison {
                geometry::to_radians(params_->elsewhere_deg);
   }
 
-  /// In sigmas: the root of the sum over the beams.
-  [[nodiscard]] double difference(const Pose2& pose) const {
-    double sum = 0.0;
+  /// What is read at a pose minus what is sought, beam by beam, in sigmas.
+  /// \param slack_m  is added to the sigma of every beam
+  [[nodiscard]] Eigen::VectorXd residuals(const Pose2& pose, double slack_m) const {
+    Eigen::VectorXd residuals(finder_->count);
     for (int beam = 0; beam < finder_->count; ++beam) {
       const double sought = sought_[static_cast<std::size_t>(beam)];
       const double found = range(pose.translation(), pose.theta + finder_->beam_angle(beam));
-      const double sigma = std::hypot(finder_->noise.sigma(std::min(sought, found)), plan_m_);
-      const double apart = std::min(std::abs(found - sought) / sigma, params_->most_of_a_beam);
-      sum += apart * apart;
+      residuals[beam] = (found - sought) / std::hypot(finder_->noise.sigma(std::min(sought, found)), plan_m_, slack_m);
     }
-    return std::sqrt(sum);
+    return residuals;
+  }
+
+  /// The root of the sum of their squares, none counted for more than `most_of_a_beam`.
+  [[nodiscard]] double difference(const Pose2& pose) const {
+    return residuals(pose, 0.0).cwiseAbs().cwiseMin(params_->most_of_a_beam).norm();
+  }
+
+  /// The step, in the frame of the pose, towards a more similar one, at most kLongest_m long (Gauss-Newton, of the
+  /// beams that count in full, with numeric derivatives).
+  [[nodiscard]] Pose2 step_from(const Pose2& pose, double slack_m) const {
+    constexpr double kNudge = 0.005;  // m, rad
+    const double most = params_->most_of_a_beam;
+    const Eigen::VectorXd here = residuals(pose, slack_m);
+    Eigen::Array<bool, Eigen::Dynamic, 1> counts = here.array().abs() < most;
+    Eigen::MatrixX3d jacobian(here.size(), 3);
+    for (int k = 0; k < 3; ++k) {
+      const Pose2 nudge{k == 0 ? kNudge : 0.0, k == 1 ? kNudge : 0.0, k == 2 ? kNudge : 0.0};
+      const Eigen::VectorXd ahead = residuals(pose * nudge, slack_m),
+                            behind = residuals(pose * nudge.inverse(), slack_m);
+      jacobian.col(k) = (ahead - behind) / (2.0 * kNudge);
+      counts = counts && ahead.array().abs() < most && behind.array().abs() < most;
+    }
+    const Eigen::VectorXd weights = counts.cast<double>();
+    const Eigen::Matrix3d normal = jacobian.transpose() * weights.asDiagonal() * jacobian + Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d step = -normal.ldlt().solve(jacobian.transpose() * weights.asDiagonal() * here);
+    const double shortened = std::min(1.0, kLongest_m / std::max(step.norm(), 1e-12));
+    return {shortened * step.x(), shortened * step.y(), shortened * step.z()};
   }
 
   /// At one place, by heading in steps of 5 degrees from the one sought: one panorama serves them all.
@@ -122,24 +150,19 @@ std::vector<Candidate> most_alike(std::vector<Candidate> candidates) {
   return kept;
 }
 
-/// Descends step by step (Hooke and Jeeves 1961), never into the place that is sought, until it is alike enough.
+/// The least difference on the way down from a pose, never into the place that is sought. Readings are compared ever
+/// more finely, so that what is far off is drawn in first. It ends early where the difference is small enough.
 double refined(const Comparison& comparison, Pose2 pose, double enough) {
   double least = comparison.difference(pose);
-  for (double step = 0.5 * kCoarse_m; step > kFinest_m && least > enough;) {
-    const double turn = kRadiansPerMetre * step;
-    const Pose2 moves[] = {{step, 0, 0}, {-step, 0, 0}, {0, step, 0}, {0, -step, 0}, {0, 0, turn}, {0, 0, -turn}};
-    bool better = false;
-    for (const Pose2& move : moves) {
-      const Pose2 moved = pose * move;
-      if (!comparison.is_elsewhere(moved)) continue;
-      const double difference = comparison.difference(moved);
-      if (difference >= least) continue;
-      least = difference;
-      pose = moved;
-      better = true;
+  for (const double slack_m : {0.1, 0.03, 0.01, 0.0})
+    for (int i = 0; i < kSteps && least > enough; ++i) {
+      Pose2 step = comparison.step_from(pose, slack_m);
+      for (int shorter = 0; shorter < kShortenings && !comparison.is_elsewhere(pose * step); ++shorter)
+        step = {0.5 * step.x, 0.5 * step.y, 0.5 * step.theta};
+      if (!comparison.is_elsewhere(pose * step)) break;
+      pose = pose * step;
+      least = std::min(least, comparison.difference(pose));
     }
-    if (!better) step *= 0.5;
-  }
   return least;
 }
 

@@ -27,11 +27,12 @@ namespace credo::sim {
 ///   unknown_start    the robot is told nothing
 ///   kidnap           set down at least 1 m elsewhere, every other time turned by at least 30 degrees too
 ///   turned           turned on the spot by at least 30 degrees
+///   symmetric        another building: a room that looks the same turned by half a turn; the robot is told nothing
 [[nodiscard]] const std::vector<std::string>& degradation_names();
 
 /// The world made worse; what happens when and where is drawn from the seed, in the middle part of the drive, so that
-/// the drive goes on long enough after. The name of the world stays: the same plan, calibration and noise as without.
-/// \throws std::invalid_argument  for an unknown name, or a world in which that cannot be done
+/// the drive goes on long enough after. The name of the world stays (but of `symmetric`): the same plan, calibration
+/// and noise as without. \throws std::invalid_argument  for an unknown name, or a world in which that cannot be done
 [[nodiscard]] World degraded(World world, std::string_view name, std::uint64_t seed);
 
 }  // namespace credo::sim

@@ -104,6 +104,18 @@ std::vector<Point> first_part(const std::vector<Point>& way, double length_m) {
   return part;
 }
 
+/// How many rooms a way goes through.
+std::size_t rooms_on(const std::vector<Point>& way, const Layout& layout) {
+  constexpr int kLooks = 8;  // at every leg
+  return static_cast<std::size_t>(std::count_if(layout.rooms.begin(), layout.rooms.end(), [&](const Room& room) {
+    for (std::size_t i = 1; i < way.size(); ++i)
+      for (int k = 0; k <= kLooks; ++k)
+        if (is_inside(room.outline, way[i - 1] + (way[i] - way[i - 1]) * (static_cast<double>(k) / kLooks)))
+          return true;
+    return false;
+  }));
+}
+
 /// From room to room, each time into another one, until it is long enough; empty where no way leads on.
 std::vector<Point> draw_way(const std::vector<std::vector<Point>>& rooms, const FreeSpace& space, double length_m,
                             Random& random) {
@@ -132,12 +144,14 @@ bool give_way(const Layout& layout, const RandomWorldParams& params, Random& ran
   if (!start) return false;
   const FreeSpace space(world, {world.robot_radius_m + kOffWallsOnWay_m, height_of_robot(world)}, *start);
   const auto rooms = places_by_room(layout, space);
-  if (rooms.size() < std::min<std::size_t>(layout.rooms.size(), 3)) return false;
+  const std::size_t several = std::min<std::size_t>(layout.rooms.size(), 3);
+  if (rooms.size() < several) return false;
   for (int i = 0; i < kMostWays; ++i) {
     world.path.clear();
     const double length = random.uniform(params.shortest_way_m, params.longest_way_m);
-    for (const Point& place : draw_way(rooms, space, length, random)) world.path.push_back({place});
-    if (world.path.size() < 2) continue;
+    const std::vector<Point> way = draw_way(rooms, space, length, random);
+    if (rooms_on(way, layout) < several) continue;
+    for (const Point& place : way) world.path.push_back({place});
     if (!find_obstruction(world, Trajectory(world.path, world.drive))) return true;
   }
   return false;

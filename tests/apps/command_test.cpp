@@ -145,6 +145,7 @@ TEST_F(Command, WrongInputEndsWithStatusOneAndSaysWhere) {
                         {"info missing", "missing"},
                         {"map missing", "missing"},
                         {"simulate missing --out out", "office"},
+                        {"simulate office --kind hall --out out", "--kind is for the world 'random'"},
                         {"evaluate ape ref.tum bad.tum", "bad.tum:2:"},
                         {"evaluate score ref.tum missing", "missing"},
                         {"evaluate map ref.tum missing", "missing"}}) {
