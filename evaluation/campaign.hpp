@@ -62,9 +62,9 @@ struct CampaignProgress {
 
 /// Who watches a campaign. Empty functions are not called.
 struct CampaignWatch {
-  std::function<double()> thread_seconds;                 ///< a clock of the calling thread
-  std::function<void(const CampaignProgress&)> progress;  ///< called by one thread at a time
-  std::function<void()> check;                            ///< called by all threads; what it throws ends the campaign
+  std::function<double()> thread_seconds = {};                 ///< a clock of the calling thread
+  std::function<void(const CampaignProgress&)> progress = {};  ///< called by one thread at a time
+  std::function<void()> check = {};  ///< called by all threads; what it throws ends the campaign
 };
 
 /// Plays the runs that the folder lacks. The files of the runs are the same whatever the number of threads, and whether

@@ -59,8 +59,8 @@ struct PlayParams {
 
 /// Who watches a run. An empty function is not called.
 struct PlayWatch {
-  std::function<double()> seconds;             ///< a clock, for the time per acquisition
-  std::function<void(double share)> progress;  ///< what it throws ends the run
+  std::function<double()> seconds = {};             ///< a clock, for the time per acquisition
+  std::function<void(double share)> progress = {};  ///< what it throws ends the run
 };
 
 /// What a run leaves.

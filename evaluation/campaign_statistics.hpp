@@ -68,7 +68,7 @@ struct BootstrapParams {
 };
 
 /// The statistic with every cluster once, and its 95 % percentile interval over resamples of the clusters (Efron and
-/// Tibshirani 1993, ch. 13). One cluster says nothing of the spread: the interval is then the value.
+/// Tibshirani 1993, ch. 13). One cluster says nothing of the spread: the ends are then nan.
 /// \returns nothing where the statistic is nothing with every cluster once
 [[nodiscard]] std::optional<Estimate> bootstrap(std::size_t clusters,
                                                 const std::function<std::optional<double>(Weights)>& statistic,

@@ -61,6 +61,9 @@ GroupSummary summarise_group(std::string name, const std::string& wanted, std::s
   return group;
 }
 
+/// Empty where there is no number.
+std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.6g}", value); }
+
 }  // namespace
 
 const Measure& GroupSummary::measure(std::string_view wanted) const {
@@ -89,8 +92,9 @@ std::string to_csv(const CampaignSummary& summary) {
   for (const GroupSummary& group : summary.groups) {
     text += fmt::format("\n{},{},{},{}", group.name, group.runs, group.refused, group.acquisitions);
     for (const Measure& m : group.measures)
-      text += m.estimate ? fmt::format(",{:.6g},{:.6g},{:.6g}", m.estimate->value, m.estimate->low, m.estimate->high)
-                         : std::string(",,,");
+      text += m.estimate
+                  ? fmt::format(",{},{},{}", cell(m.estimate->value), cell(m.estimate->low), cell(m.estimate->high))
+                  : std::string(",,,");
   }
   return text + "\n";
 }
