@@ -19,8 +19,10 @@
 #include "apps/terminal.hpp"
 #include "datasets/text_file.hpp"
 #include "evaluation/campaign.hpp"
+#include "evaluation/campaign_pictures.hpp"
 #include "evaluation/campaign_summary.hpp"
 #include "results/config.hpp"
+#include "results/pictures.hpp"
 #include "sim/random_world.hpp"
 
 namespace credo::apps {
@@ -38,6 +40,7 @@ struct CampaignOptions {
   int threads = 0;        ///< 0: one for each core
   std::size_t limit = std::numeric_limits<std::size_t>::max();
   bool force = false;
+  bool pictures = false;
   OutputFormat format;
 };
 
@@ -128,6 +131,14 @@ std::map<std::string, double> milliseconds(const CampaignFolder& folder) {
   return means;
 }
 
+void draw_pictures(const CampaignFolder& folder, const std::vector<evaluation::CampaignRun>& runs) {
+  const fs::path pictures = folder.path() / "pictures";
+  fs::create_directories(pictures);
+  results::write_png(pictures / "errors.png", evaluation::error_picture(folder.spec(), runs));
+  results::write_png(pictures / "availability.png", evaluation::availability_picture(folder.spec(), runs));
+  results::write_png(pictures / "protection.png", evaluation::protection_picture(runs));
+}
+
 void execute(const CampaignOptions& options) {
   const CampaignFolder folder =
       options.summarize.empty() ? run_missing(options) : CampaignFolder::to_read(options.summarize);
@@ -137,6 +148,7 @@ void execute(const CampaignOptions& options) {
   const nlohmann::ordered_json json = to_json(summary, folder.spec().method);
   datasets::write_file_whole(folder.path() / "summary.csv", evaluation::to_csv(summary));
   datasets::write_file_whole(folder.path() / "summary.json", json.dump(2) + "\n");
+  if (options.pictures) draw_pictures(folder, runs);
   if (options.format.json())
     print(json);
   else
@@ -158,7 +170,7 @@ void add_campaign(CLI::App& app) {
   command->footer(
       "  credo campaign nominal --seeds 20 --out campaigns/nominal      a campaign that comes with credo\n"
       "  credo campaign my_campaign.yaml --out campaigns/mine           the same command goes on where it was stopped\n"
-      "  credo campaign --summarize campaigns/mine");
+      "  credo campaign --summarize campaigns/mine --pictures");
   auto options = std::make_shared<CampaignOptions>();
   command->add_option("SPEC", options->spec, "a campaign file (YAML), or the name of one that comes with credo")
       ->check(a_path());
@@ -172,6 +184,7 @@ void add_campaign(CLI::App& app) {
   command->add_option("--limit", options->limit, "runs of those that are missing; the others stay for another time")
       ->check(number_in<std::size_t>(1, CampaignSpec::kMostRuns));
   command->add_flag("-f,--force", options->force, "start anew where the folder holds another campaign");
+  command->add_flag("--pictures", options->pictures, "draws errors, availability and protection levels into pictures/");
   add_format_option(*command, options->format);
   command->callback([options] {
     check_combination(*options);
