@@ -68,7 +68,7 @@ std::string checksum(const fs::path& file) {
 
 /// Everything that the runs depend on beside the specification. \throws for a world that is not there
 std::string config_of(const CampaignSpec& spec) {
-  const auto params = evaluation::PlayParams::of(spec.method);
+  const auto params = evaluation::RunParams::of(spec.method);
   std::string text = results::to_yaml(results::RunConfig{.version = CREDO_VERSION,
                                                          .dataset = "every run of campaign.yaml",
                                                          .observer = params.observer,

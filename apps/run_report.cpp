@@ -80,12 +80,12 @@ ordered_json optional(const std::optional<double>& value) { return value ? finit
 
 std::optional<evaluation::LocalizationScore> score_of(const Outcome& outcome, const datasets::Dataset& dataset) {
   std::vector<results::LocalizationRow> rows;
-  bool truth = false;
+  bool comparable = false;
   for (const results::Moment& m : outcome.history) {
     rows.push_back({.localization = m.localization});
-    truth = truth || m.truth.has_value();
+    comparable = comparable || (m.truth && m.localization.status != Status::kInitializing);
   }
-  if (!truth) return {};
+  if (!comparable) return {};
   std::optional<std::vector<evaluation::Interval>> degraded;
   if (dataset.events_recorded) degraded = evaluation::degraded_intervals(dataset.events);
   return evaluation::score(rows, dataset.truth, degraded);
@@ -122,6 +122,7 @@ std::string to_text(const Outcome& outcome, const datasets::Dataset& dataset) {
 ordered_json to_json(const evaluation::LocalizationScore& s) {
   return {{"acquisitions", s.acquisitions},
           {"with_truth", s.with_truth},
+          {"placed", s.placed},
           {"mean_position_m", finite(s.mean_position_m)},
           {"median_position_m", finite(s.median_position_m)},
           {"rmse_position_m", finite(s.rmse_position_m)},

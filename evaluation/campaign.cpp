@@ -53,7 +53,7 @@ class Player {
       : folder_(&folder),
         world_of_(&world_of),
         watch_(&watch),
-        params_(PlayParams::of(folder.spec().method)),
+        params_(RunParams::of(folder.spec().method)),
         progress_{.finished = 0, .missing = missing} {}
 
   void play_into_file(const RunKey& key) {
@@ -61,10 +61,10 @@ class Player {
     double shown = 0.0;
     const auto simulation = simulate(key, run.refused);
     if (simulation) {
-      const PlayWatch run_watch{.seconds = watch_->thread_seconds, .progress = [&](double share) {
-                                  if (watch_->check) watch_->check();
-                                  advance(share - std::exchange(shown, share), 0);
-                                }};
+      const RunWatch run_watch{.seconds = watch_->thread_seconds, .progress = [&](double share) {
+                                 if (watch_->check) watch_->check();
+                                 advance(share - std::exchange(shown, share), 0);
+                               }};
       Played played = play(*simulation, params_, run_watch);
       run.rows = std::move(played.rows);
       note_time(key, played.seconds_per_acquisition);
@@ -102,7 +102,7 @@ class Player {
   const CampaignFolder* folder_;
   const WorldSource* world_of_;
   const CampaignWatch* watch_;
-  PlayParams params_;
+  RunParams params_;
   std::mutex mutex_;
   CampaignProgress progress_;
 };

@@ -12,15 +12,12 @@
 #include <utility>
 
 #include "evaluation/consistency.hpp"
+#include "evaluation/proportion.hpp"
 
 namespace credo::evaluation {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-bool beyond(const CampaignRow& row, double limit_m, double limit_deg) {
-  return row.position_error_m > limit_m || row.heading_error_rad > geometry::to_radians(limit_deg);
-}
 
 struct ClusteredRow {
   const CampaignRow* row;
@@ -43,7 +40,7 @@ Group group_of(std::span<const CampaignRun* const> runs) {
     const std::size_t cluster = clusters.try_emplace({run->key.world, run->key.seed}, clusters.size()).first->second;
     for (const CampaignRow& row : run->rows) {
       group.rows.push_back({&row, cluster});
-      if (row.absolute()) group.absolute.push_back({&row, cluster});
+      if (row.sample.placed()) group.absolute.push_back({&row, cluster});
     }
   }
   group.clusters = clusters.size();
@@ -71,9 +68,10 @@ class Measures {
   void mean(Measure measure, const std::vector<ClusteredRow>& rows, const Value& value) {
     ratio(std::move(measure), rows, value, [](const CampaignRow&) { return 1.0; });
   }
-  using Test = bool (*)(const CampaignRow&, const ScoreParams&);
+  using Test = bool (*)(const Sample&, const ScoreParams&);
   void share(Measure measure, const std::vector<ClusteredRow>& rows, Test test) {
-    mean(std::move(measure), rows, [&](const CampaignRow& row) { return test(row, params_->words) ? 1.0 : 0.0; });
+    mean(std::move(measure), rows,
+         [&](const CampaignRow& row) { return test(row.sample, params_->words) ? 1.0 : 0.0; });
   }
   template <typename Statistic>
   void statistic(Measure measure, const std::vector<ClusteredRow>& rows, const Statistic& statistic) {
@@ -81,9 +79,12 @@ class Measures {
     measure.cases = static_cast<long>(rows.size());
     list.push_back(std::move(measure));
   }
-  void proportion_of(Measure measure, long successes, long trials) {
-    measure.estimate = proportion(successes, trials);
-    measure.cases = trials;
+  void proportion_of(Measure measure, const Proportion& proportion) {
+    if (const auto share = proportion.share()) {
+      const Bounds bounds = proportion.interval();
+      measure.estimate = Estimate{*share, bounds.lower, bounds.upper};
+    }
+    measure.cases = static_cast<long>(proportion.of);
     list.push_back(std::move(measure));
   }
 
@@ -103,8 +104,8 @@ ClusteredValues values_of(const std::vector<ClusteredRow>& rows, const Value& va
 }
 
 void add_errors(const Group& group, Measures& measures) {
-  const auto position = [](const CampaignRow& row) { return row.position_error_m; };
-  const auto heading = [](const CampaignRow& row) { return geometry::to_degrees(row.heading_error_rad); };
+  const auto position = [](const CampaignRow& row) { return row.sample.position_m(); };
+  const auto heading = [](const CampaignRow& row) { return geometry::to_degrees(row.sample.heading_rad()); };
   const auto no_matter = [](const CampaignRow&) { return true; };
   const auto& rows = group.absolute;
   measures.mean({"mean_position", "m", "error of the position"}, rows, position);
@@ -126,42 +127,32 @@ void add_integrity(const Group& group, const SummaryParams& params, Measures& me
                   fmt::format("localized and upper protection level at most {:g} m and {:g} deg", w.available_level_m,
                               w.available_level_deg)},
                  group.rows, is_available);
-  long misleading = 0;
-  for (const ClusteredRow& r : group.rows) misleading += is_misleading(*r.row, w) ? 1 : 0;
-  measures.proportion_of({"misleading", "", "available, yet the error is above the protection level"}, misleading,
-                         static_cast<long>(group.rows.size()));
+  Proportion misleading;
+  for (const ClusteredRow& r : group.rows) misleading.add(is_misleading(r.row->sample, w));
+  measures.proportion_of({"misleading", "", "available, yet the error is above the protection level"}, misleading);
   measures.share({"false_alert", "", "other than localized, yet not lost and no sensor degraded"}, group.rows,
                  is_false_alert);
   measures.share(
       {"confidently_wrong", "", fmt::format("localized, belief_yes > {:g}, yet {}", w.confident_belief, wrong)},
-      group.rows, [](const CampaignRow& row, const ScoreParams& words) {
-        return is_confident(row, words) && is_wrong(row, words);
+      group.rows, [](const Sample& sample, const ScoreParams& words) {
+        return is_confident(sample, words) && is_wrong(sample, words);
       });
   measures.share({"confidently_right", "", "the same words, and error within both"}, group.rows,
-                 [](const CampaignRow& row, const ScoreParams& words) {
-                   return is_confident(row, words) && !is_wrong(row, words);
+                 [](const Sample& sample, const ScoreParams& words) {
+                   return is_confident(sample, words) && !is_wrong(sample, words);
                  });
   measures.ratio(
       {"wrong_matches", "", "of the matches that poses rest on"}, group.rows,
       [](const CampaignRow& row) { return static_cast<double>(row.matches.wrong); },
       [](const CampaignRow& row) { return static_cast<double>(row.matches.matches); });
   const ClusteredValues beliefs = values_of(
-      group.absolute, [](const CampaignRow& row) { return row.localization.belief.pignistic(); },
-      [&](const CampaignRow& row) { return !is_lost(row, w); });
+      group.absolute, [](const CampaignRow& row) { return row.sample.localization.belief.pignistic(); },
+      [&](const CampaignRow& row) { return !is_lost(row.sample, w); });
   measures.statistic({"auroc", "", "BetP(YES) against lost; over at least 200 lost acquisitions"}, group.absolute,
                      [&](Weights weights) { return beliefs.auroc(weights); });
   measures.statistic({"calibration_error", "", "ECE of BetP(YES), 10 bins of equal count"}, group.absolute,
                      [&](Weights weights) { return beliefs.calibration_error(weights); });
 }
-
-/// Successes of those cases that are decided.
-struct Tally {
-  long successes = 0, trials = 0;
-  void add(bool success) {
-    successes += success ? 1 : 0;
-    ++trials;
-  }
-};
 
 /// Whether one of the rows [at, at + within) of a run passes; nothing where none does and the run ends before.
 template <typename Passes>
@@ -174,14 +165,16 @@ std::optional<bool> passes_within(const CampaignRun& run, std::size_t at, int wi
 
 /// The robot is not where it was told, or thinks, that it is: kidnapped, or told a wrong start; at decidable places.
 void add_displacements(const Group& group, const SummaryParams& params, Measures& measures) {
-  Tally alerted, recovered;
-  const auto is_right = [&](const CampaignRow& row) { return row.localized() && !is_lost(row, params.words); };
+  Proportion alerted, recovered;
+  const auto is_right = [&](const CampaignRow& row) {
+    return !is_alert(row.sample) && !is_lost(row.sample, params.words);
+  };
   for (const CampaignRun* run : group.runs) {
     for (std::size_t k = 0; k < run->rows.size(); ++k) {
       const CampaignRow& row = run->rows[k];
       if (!(row.has_event(kKidnapped) || row.has_event(kToldWrong)) || !row.decidable.value_or(true)) continue;
       const auto noticed = passes_within(*run, k, params.alert_within,
-                                         [&](const CampaignRow& r) { return !r.localized() || is_right(r); });
+                                         [&](const CampaignRow& r) { return is_alert(r.sample) || is_right(r); });
       const auto found = passes_within(*run, k, params.recovered_within, is_right);
       if (noticed) alerted.add(*noticed);
       if (found) recovered.add(*found);
@@ -191,21 +184,21 @@ void add_displacements(const Group& group, const SummaryParams& params, Measures
                           fmt::format("of those set down or told to be elsewhere, at decidable places: an alert, or "
                                       "the right pose, within {} acquisitions",
                                       params.alert_within)},
-                         alerted.successes, alerted.trials);
+                         alerted);
   measures.proportion_of(
       {"displaced_recovered", "",
        fmt::format("of the same: localized and not lost within {} acquisitions", params.recovered_within)},
-      recovered.successes, recovered.trials);
+      recovered);
 }
 
 /// Starts of which the robot is told nothing.
 void add_starts(const Group& group, const SummaryParams& params, Measures& measures) {
-  Tally never_wrong, resolved, undecidable;
+  Proportion never_wrong, resolved, undecidable;
   for (const CampaignRun* run : group.runs) {
     const CampaignRow& start = run->rows.front();
     if (!start.has_event(kToldNothing)) continue;
     const bool wrong = std::any_of(run->rows.begin(), run->rows.end(), [&](const CampaignRow& row) {
-      return row.localized() && is_lost(row, params.words);
+      return !is_alert(row.sample) && is_lost(row.sample, params.words);
     });
     if (!start.decidable.value_or(true)) {
       undecidable.add(!wrong);
@@ -213,20 +206,19 @@ void add_starts(const Group& group, const SummaryParams& params, Measures& measu
     }
     never_wrong.add(!wrong);
     resolved.add(std::any_of(run->rows.begin(), run->rows.end(), [&](const CampaignRow& row) {
-      return row.localized() && !is_lost(row, params.words) && row.travelled_m <= params.resolved_within_m;
+      return !is_alert(row.sample) && !is_lost(row.sample, params.words) && row.travelled_m <= params.resolved_within_m;
     }));
   }
   measures.proportion_of({"start_never_wrong", "", "of decidable starts that are not told: never localized and lost"},
-                         never_wrong.successes, never_wrong.trials);
+                         never_wrong);
   measures.proportion_of(
       {"start_resolved", "",
        fmt::format("of the same: localized and not lost within {:g} m of travel", params.resolved_within_m)},
-      resolved.successes, resolved.trials);
-  measures.proportion_of({"start_undecidable_never_wrong", "", "of the others: never localized and lost"},
-                         undecidable.successes, undecidable.trials);
+      resolved);
+  measures.proportion_of({"start_undecidable_never_wrong", "", "of the others: never localized and lost"}, undecidable);
 }
 
-double nees_of(const CampaignRow& row) { return nees(row.localization.estimate, row.truth); }
+double nees_of(const CampaignRow& row) { return nees(row.sample.localization.estimate, row.sample.truth); }
 
 /// ANEES by index over the runs of one world in one degradation that have a pose in the map throughout.
 void add_consistency(const Group& group, Measures& measures) {
@@ -235,7 +227,7 @@ void add_consistency(const Group& group, Measures& measures) {
   for (const CampaignRun* run : group.runs) {
     std::vector<double> values;
     for (const CampaignRow& row : run->rows)
-      if (row.absolute()) values.push_back(nees_of(row));
+      if (row.sample.placed()) values.push_back(nees_of(row));
     if (values.size() == run->rows.size()) by_world[{run->key.world, run->key.degradation}].push_back(values);
   }
   double inside = 0.0;
@@ -254,32 +246,12 @@ void add_consistency(const Group& group, Measures& measures) {
 
 }  // namespace
 
-bool is_lost(const CampaignRow& row, const ScoreParams& words) {
-  return beyond(row, words.lost_above_m, words.lost_above_deg);
+bool is_wrong(const Sample& sample, const ScoreParams& words) {
+  return is_beyond(sample, words.wrong_above_m, words.wrong_above_deg);
 }
 
-bool is_wrong(const CampaignRow& row, const ScoreParams& words) {
-  return beyond(row, words.wrong_above_m, words.wrong_above_deg);
-}
-
-bool is_confident(const CampaignRow& row, const ScoreParams& words) {
-  return row.localized() && row.localization.belief.yes > words.confident_belief;
-}
-
-bool is_available(const CampaignRow& row, const ScoreParams& words) {
-  const localization::ProtectionLevels& level = row.localization.protection;
-  return row.localized() && level.position_high_m <= words.available_level_m &&
-         level.heading_high_rad <= geometry::to_radians(words.available_level_deg);
-}
-
-bool is_misleading(const CampaignRow& row, const ScoreParams& words) {
-  const localization::ProtectionLevels& level = row.localization.protection;
-  return is_available(row, words) &&
-         (row.position_error_m > level.position_high_m || row.heading_error_rad > level.heading_high_rad);
-}
-
-bool is_false_alert(const CampaignRow& row, const ScoreParams& words) {
-  return row.absolute() && !row.localized() && !is_lost(row, words) && !row.degraded;
+bool is_confident(const Sample& sample, const ScoreParams& words) {
+  return !is_alert(sample) && sample.localization.belief.yes > words.confident_belief;
 }
 
 std::vector<Measure> measures_of(std::span<const CampaignRun* const> runs, const SummaryParams& params) {

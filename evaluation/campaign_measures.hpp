@@ -11,13 +11,9 @@
 // What a summary measures, acquisition by acquisition and run by run.
 namespace credo::evaluation {
 
-[[nodiscard]] bool is_lost(const CampaignRow& row, const ScoreParams& words);
 /// As in "confidently wrong".
-[[nodiscard]] bool is_wrong(const CampaignRow& row, const ScoreParams& words);
-[[nodiscard]] bool is_confident(const CampaignRow& row, const ScoreParams& words);
-[[nodiscard]] bool is_available(const CampaignRow& row, const ScoreParams& words);
-[[nodiscard]] bool is_misleading(const CampaignRow& row, const ScoreParams& words);
-[[nodiscard]] bool is_false_alert(const CampaignRow& row, const ScoreParams& words);
+[[nodiscard]] bool is_wrong(const Sample& sample, const ScoreParams& words);
+[[nodiscard]] bool is_confident(const Sample& sample, const ScoreParams& words);
 
 /// All measures of a group, always the same ones in the same order.
 /// \param runs  with rows

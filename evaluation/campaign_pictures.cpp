@@ -102,10 +102,10 @@ constexpr std::array kKinds{Kind{"available", colors::kGreen},
                             Kind{"lost", colors::kInk},
                             Kind{"initializing", colors::kFaint}};
 
-std::size_t kind_of(const CampaignRow& row, const ScoreParams& words) {
-  if (is_misleading(row, words)) return 1;
-  if (is_available(row, words)) return 0;
-  switch (row.localization.status) {
+std::size_t kind_of(const Sample& sample, const ScoreParams& words) {
+  if (is_misleading(sample, words)) return 1;
+  if (is_available(sample, words)) return 0;
+  switch (sample.localization.status) {
     case Status::kLocalized: return 2;
     case Status::kUncertain: return 3;
     case Status::kAmbiguous: return 4;
@@ -126,9 +126,10 @@ cv::Mat error_picture(const CampaignSpec& spec, std::span<const CampaignRun> run
   heading.draw(canvas, layout, "heading [deg]", 1.0);
   for (std::size_t i = 0; i < layout.names.size(); ++i) {
     std::vector<double> positions, headings;
-    for (const CampaignRow* row : rows_of(runs, layout.names[i], [](const CampaignRow& r) { return r.absolute(); })) {
-      positions.push_back(row->position_error_m);
-      headings.push_back(geometry::to_degrees(row->heading_error_rad));
+    for (const CampaignRow* row :
+         rows_of(runs, layout.names[i], [](const CampaignRow& r) { return r.sample.placed(); })) {
+      positions.push_back(row->sample.position_m());
+      headings.push_back(geometry::to_degrees(row->sample.heading_rad()));
     }
     draw_distribution(canvas, std::move(positions), layout.middle(i), position);
     draw_distribution(canvas, std::move(headings), layout.middle(i), heading);
@@ -147,7 +148,7 @@ cv::Mat availability_picture(const CampaignSpec& spec, std::span<const CampaignR
   for (std::size_t i = 0; i < layout.names.size(); ++i) {
     std::array<std::size_t, kKinds.size()> counts{};
     const auto rows = rows_of(runs, layout.names[i], [](const CampaignRow&) { return true; });
-    for (const CampaignRow* row : rows) ++counts[kind_of(*row, words)];
+    for (const CampaignRow* row : rows) ++counts[kind_of(row->sample, words)];
     if (rows.empty()) continue;
     double x = kNames_px;
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
@@ -171,10 +172,12 @@ cv::Mat protection_picture(std::span<const CampaignRun> runs, const ScoreParams&
   std::array<std::vector<double>, kGroups> errors, levels;
   for (const CampaignRun& run : runs)
     for (const CampaignRow& row : run.rows) {
-      const double level = row.localization.protection.position_high_m;
-      if (!row.absolute() || std::isnan(level)) continue;
-      const std::size_t group = is_misleading(row, words) ? kMisleading : row.localized() ? kLocalized : kAlert;
-      errors[group].push_back(std::min(row.position_error_m, kFurthest_m));
+      const double level = row.sample.localization.protection.position_high_m;
+      if (!row.sample.placed() || std::isnan(level)) continue;
+      const std::size_t group = is_misleading(row.sample, words) ? kMisleading
+                                : is_alert(row.sample)           ? kAlert
+                                                                 : kLocalized;
+      errors[group].push_back(std::min(row.sample.position_m(), kFurthest_m));
       levels[group].push_back(std::min(level, kFurthest_m));
     }
   results::Plot plot("", "position error [m]", "upper protection level [m]");

@@ -8,7 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "evaluation/localization_score.hpp"
 #include "evaluation/simulated_drive.hpp"
 #include "sim/decidable.hpp"
 
@@ -44,17 +43,17 @@ class Script {
     const auto at = std::lower_bound(drive_->truth.begin(), drive_->truth.end(), time,
                                      [](const datasets::TimedPose& row, Timestamp t) { return row.time < t; });
     CampaignRow row;
-    row.truth = at->pose;  // the simulation tells the truth at the time of every reading
+    row.sample.truth = at->pose;  // the simulation tells the truth at the time of every reading
     row.travelled_m = ways_[static_cast<std::size_t>(at - drive_->truth.begin())];
-    row.degraded = std::any_of(degraded_.begin(), degraded_.end(),
-                               [time](const Interval& i) { return time >= i.first && time <= i.second; });
-    if (next_event_ == 0 && is_first_) row.events = told(row.truth);
+    row.sample.degraded = std::any_of(degraded_.begin(), degraded_.end(),
+                                      [time](const Interval& i) { return time >= i.first && time <= i.second; });
+    if (next_event_ == 0 && is_first_) row.events = told(row.sample.truth);
     is_first_ = false;
     for (; next_event_ < drive_->events.size() && drive_->events[next_event_].time <= time; ++next_event_)
       row.events.push_back(drive_->events[next_event_].name);
     const bool searched = row.has_event(kToldNothing) || row.has_event(kToldWrong) || row.has_event(kKidnapped);
     if (searched && !simulation_->world().range_finders.empty())
-      row.decidable = sim::decidable(simulation_->world(), row.truth);
+      row.decidable = sim::decidable(simulation_->world(), row.sample.truth);
     return row;
   }
 
@@ -83,14 +82,14 @@ bool CampaignRow::has_event(std::string_view name) const {
   return std::find(events.begin(), events.end(), name) != events.end();
 }
 
-PlayParams PlayParams::of(perception::Method method) {
-  PlayParams params;
+RunParams RunParams::of(perception::Method method) {
+  RunParams params;
   params.observer.method = method;
   params.localizer = params.localizer.with_method(method);
   return params;
 }
 
-Played play(const sim::Simulation& simulation, const PlayParams& params, const PlayWatch& watch) {
+Played play(const sim::Simulation& simulation, const RunParams& params, const RunWatch& watch) {
   const datasets::Dataset drive = readings_of(simulation);
   const datasets::DatasetHeader& header = drive.header;
   perception::Observer observer(header.rig, params.observer);
@@ -99,25 +98,21 @@ Played play(const sim::Simulation& simulation, const PlayParams& params, const P
   Played played;
   double busy = 0.0;
   const auto now = [&] { return watch.seconds ? watch.seconds() : 0.0; };
-  for_each_acquisition(
-      simulation, drive,
-      [&](sensors::Acquisition acquisition) {
-        const double begin = now();
-        localizer.with_path(acquisition);
-        const perception::Scene& scene = observer.observe(acquisition);
-        localization::Localization fix = localizer.update(scene, acquisition.motion);
-        busy += now() - begin;
-        CampaignRow row = script.row_at(acquisition.time);
-        row.localization = std::move(fix);
-        if (row.absolute())
-          row.matches =
-              check_matches(scene, localizer.observations(), localizer.solution(), localizer.map(), row.truth);
-        const geometry::Pose2& pose = row.localization.estimate.pose;
-        row.position_error_m = (pose.translation() - row.truth.translation()).norm();
-        row.heading_error_rad = std::abs(geometry::angle_difference(pose.theta, row.truth.theta));
-        played.rows.push_back(std::move(row));
-      },
-      watch.progress);
+  for_each_acquisition(simulation, drive,
+                       [&](sensors::Acquisition acquisition) {
+                         const double begin = now();
+                         localizer.with_path(acquisition);
+                         const perception::Scene& scene = observer.observe(acquisition);
+                         localization::Localization fix = localizer.update(scene, acquisition.motion);
+                         busy += now() - begin;
+                         CampaignRow row = script.row_at(acquisition.time);
+                         row.sample.localization = std::move(fix);
+                         if (row.sample.placed())
+                           row.matches = check_matches(scene, localizer.observations(), localizer.solution(),
+                                                       localizer.map(), row.sample.truth);
+                         played.rows.push_back(std::move(row));
+                       },
+                       {.progress = watch.progress});
   if (!played.rows.empty()) played.seconds_per_acquisition = busy / static_cast<double>(played.rows.size());
   return played;
 }

@@ -12,6 +12,7 @@
 
 #include "evaluation/campaign_spec.hpp"
 #include "evaluation/match_check.hpp"
+#include "evaluation/samples.hpp"
 #include "localization/localizer.hpp"
 #include "perception/observer.hpp"
 #include "sim/simulation.hpp"
@@ -25,21 +26,14 @@ inline constexpr std::string_view kKidnapped = "kidnapped";
 
 /// One acquisition of a run, with what is truly so.
 struct CampaignRow {
-  localization::Localization localization;  ///< without its hypotheses
-  geometry::Pose2 truth;                    ///< T_map_base
-  double position_error_m = 0.0;
-  double heading_error_rad = 0.0;  ///< at least 0
-  double travelled_m = 0.0;        ///< driven since the start; being carried does not count
-  MatchCounts matches;             ///< that the pose rests on
-  bool degraded = false;           ///< the events tell of a sensor that is
+  Sample sample;             ///< its localization is without hypotheses
+  double travelled_m = 0.0;  ///< driven since the start; being carried does not count
+  MatchCounts matches;       ///< that the pose rests on
   std::vector<std::string> events = {};
   /// Whether the range finder can tell this place from every other: where the robot has to find out where it is.
   std::optional<bool> decidable = std::nullopt;
 
   [[nodiscard]] bool has_event(std::string_view name) const;
-  /// There is a pose in the map. Before, the pose is in the frame of the start, and its error says nothing.
-  [[nodiscard]] bool absolute() const { return localization.status != localization::Status::kInitializing; }
-  [[nodiscard]] bool localized() const { return localization.status == localization::Status::kLocalized; }
 };
 
 /// What came of one run.
@@ -49,16 +43,16 @@ struct CampaignRun {
   std::string refused;  ///< why the world could not be made; then there are no rows
 };
 
-struct PlayParams {
+struct RunParams {
   perception::ObserverParams observer;
   localization::LocalizerParams localizer;
 
   /// The parameters of a method, each part told.
-  [[nodiscard]] static PlayParams of(perception::Method method);
+  [[nodiscard]] static RunParams of(perception::Method method);
 };
 
 /// Who watches a run. An empty function is not called.
-struct PlayWatch {
+struct RunWatch {
   std::function<double()> seconds = {};             ///< a clock, for the time per acquisition
   std::function<void(double share)> progress = {};  ///< what it throws ends the run
 };
@@ -71,7 +65,7 @@ struct Played {
 
 /// Plays a drive in memory and localizes in it, on this thread. The rows are a function of the simulation and the
 /// parameters alone.
-[[nodiscard]] Played play(const sim::Simulation& simulation, const PlayParams& params, const PlayWatch& watch = {});
+[[nodiscard]] Played play(const sim::Simulation& simulation, const RunParams& params, const RunWatch& watch = {});
 
 /// A run as a file: a localization.csv with more columns (docs/campaigns.md), written whole or not at all.
 void write_run(const std::filesystem::path& file, const CampaignRun& run);

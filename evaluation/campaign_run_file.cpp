@@ -25,13 +25,14 @@ constexpr std::string_view kRefused = "# refused: ";
 std::string decidable_text(const std::optional<bool>& decidable) { return decidable ? *decidable ? "1" : "0" : ""; }
 
 std::string line_of(const CampaignRow& row) {
-  const geometry::Pose2& truth = row.truth;
+  const Sample& sample = row.sample;
+  const geometry::Pose2& truth = sample.truth;
   return results::to_line(results::ExtendedRow{
-      .row = {row.localization},
+      .row = {sample.localization},
       .more = {fmt::format("{:.6f}", truth.x), fmt::format("{:.6f}", truth.y), fmt::format("{:.9f}", truth.theta),
-               fmt::format("{:.6f}", row.position_error_m), fmt::format("{:.9f}", row.heading_error_rad),
+               fmt::format("{:.6f}", sample.position_m()), fmt::format("{:.9f}", sample.heading_rad()),
                fmt::format("{:.3f}", row.travelled_m), std::to_string(row.matches.matches),
-               std::to_string(row.matches.wrong), row.degraded ? "1" : "0", decidable_text(row.decidable),
+               std::to_string(row.matches.wrong), sample.degraded ? "1" : "0", decidable_text(row.decidable),
                fmt::format("{}", fmt::join(row.events, ";"))}});
 }
 
@@ -73,16 +74,16 @@ class ColumnReader {
 CampaignRow row_of(const std::filesystem::path& file, const results::ExtendedRow& extended) {
   ColumnReader read(file, extended);
   CampaignRow row;
-  row.localization = extended.row.localization;
-  row.truth.x = read.number();
-  row.truth.y = read.number();
-  row.truth.theta = read.number();
-  row.position_error_m = read.number();
-  row.heading_error_rad = read.number();
+  row.sample.localization = extended.row.localization;
+  row.sample.truth.x = read.number();
+  row.sample.truth.y = read.number();
+  row.sample.truth.theta = read.number();
+  (void)read.number();  // the errors follow from the poses
+  (void)read.number();
   row.travelled_m = read.number();
   row.matches.matches = read.number<long>();
   row.matches.wrong = read.number<long>();
-  row.degraded = read.flag();
+  row.sample.degraded = read.flag();
   row.decidable = read.optional_flag();
   row.events = read.words();
   return row;

@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "evidence/predictive_belief.hpp"
 #include "sim/random.hpp"
 
 namespace credo::evaluation {
@@ -103,13 +102,6 @@ std::optional<Estimate> bootstrap(std::size_t clusters, const std::function<std:
   if (clusters < 2 || resampled.empty()) return Estimate{*value, kUnknown, kUnknown};
   const auto tail = static_cast<std::size_t>(0.5 * (1.0 - kConfidence) * static_cast<double>(resampled.size()));
   return Estimate{*value, resampled[tail], resampled[resampled.size() - 1 - tail]};
-}
-
-std::optional<Estimate> proportion(long successes, long trials) {
-  if (trials == 0) return std::nullopt;
-  const evidence::BinaryMass belief =
-      evidence::predictive_belief(static_cast<std::size_t>(successes), static_cast<std::size_t>(trials), kConfidence);
-  return Estimate{static_cast<double>(successes) / static_cast<double>(trials), belief.yes, 1.0 - belief.no};
 }
 
 }  // namespace credo::evaluation

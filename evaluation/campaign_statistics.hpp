@@ -74,8 +74,4 @@ struct BootstrapParams {
                                                 const std::function<std::optional<double>(Weights)>& statistic,
                                                 const BootstrapParams& params = {});
 
-/// `successes` of `trials` independent ones, with the 95 % interval of Clopper and Pearson (1934); nothing for no
-/// trial.
-[[nodiscard]] std::optional<Estimate> proportion(long successes, long trials);
-
 }  // namespace credo::evaluation

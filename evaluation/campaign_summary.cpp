@@ -20,12 +20,13 @@ namespace {
 RunRemark remark_on(const CampaignRun& run, const ScoreParams& words) {
   RunRemark remark{.key = run.key};
   for (const CampaignRow& row : run.rows) {
-    if (!row.absolute()) continue;
-    remark.misleading += is_misleading(row, words) ? 1 : 0;
-    remark.confidently_wrong += is_confident(row, words) && is_wrong(row, words) ? 1 : 0;
-    remark.lost += is_lost(row, words) ? 1 : 0;
-    remark.max_position_m = std::max(remark.max_position_m, row.position_error_m);
-    remark.max_heading_rad = std::max(remark.max_heading_rad, row.heading_error_rad);
+    const Sample& sample = row.sample;
+    if (!sample.placed()) continue;
+    remark.misleading += is_misleading(sample, words) ? 1 : 0;
+    remark.confidently_wrong += is_confident(sample, words) && is_wrong(sample, words) ? 1 : 0;
+    remark.lost += is_lost(sample, words) ? 1 : 0;
+    remark.max_position_m = std::max(remark.max_position_m, sample.position_m());
+    remark.max_heading_rad = std::max(remark.max_heading_rad, sample.heading_rad());
   }
   return remark;
 }
@@ -55,7 +56,7 @@ GroupSummary summarise_group(std::string name, const std::string& wanted, std::s
     if (run.rows.empty()) continue;
     members.push_back(&run);
     group.acquisitions += static_cast<long>(run.rows.size());
-    for (const CampaignRow& row : run.rows) group.misleading += is_misleading(row, params.words) ? 1 : 0;
+    for (const CampaignRow& row : run.rows) group.misleading += is_misleading(row.sample, params.words) ? 1 : 0;
   }
   group.measures = measures_of(members, params);
   return group;

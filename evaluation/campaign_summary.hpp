@@ -10,7 +10,7 @@
 
 #include "evaluation/campaign_run.hpp"
 #include "evaluation/campaign_statistics.hpp"
-#include "evaluation/localization_score.hpp"
+#include "evaluation/samples.hpp"
 
 namespace credo::evaluation {
 

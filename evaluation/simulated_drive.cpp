@@ -59,22 +59,21 @@ datasets::Dataset readings_of(const sim::Simulation& simulation) {
 }
 
 void for_each_acquisition(const sim::Simulation& simulation, const datasets::Dataset& readings,
-                          const std::function<void(sensors::Acquisition)>& take,
-                          const std::function<void(double)>& progress) {
+                          const std::function<void(sensors::Acquisition)>& take, const PlayParams& params) {
   if (readings.header.rig.camera) {
     std::optional<sensors::Timestamp> previous;
     sim::Sink sink;
-    sink.progress = progress;
+    sink.progress = params.progress;
     sink.image = [&](const sensors::OmniImage& image) {
       take(datasets::gather(readings, previous, image.time, image));
       previous = image.time;
     };
-    simulation.run(sink);
+    simulation.run(sink, params.threads);
   } else {
     const datasets::Acquisitions acquisitions(readings);
     for (std::size_t i = 0; i < acquisitions.size(); ++i) {
       take(acquisitions.read(i));
-      if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(acquisitions.size()));
+      if (params.progress) params.progress(static_cast<double>(i + 1) / static_cast<double>(acquisitions.size()));
     }
   }
 }

@@ -19,12 +19,15 @@ namespace credo::evaluation {
 /// the rounding of its files, and with no image.
 [[nodiscard]] datasets::Dataset readings_of(const sim::Simulation& simulation);
 
+struct PlayParams {
+  int threads = 1;                            ///< for rendering images
+  std::function<void(double)> progress = {};  ///< is told the share of the work done; may be empty
+};
+
 /// Renders the images and hands out acquisition after acquisition, in the order of time, from this thread. At most a
 /// batch of images is held at once.
 /// \param readings  of the same simulation: readings_of
-/// \param progress  is told the share of the work done; may be empty
 void for_each_acquisition(const sim::Simulation& simulation, const datasets::Dataset& readings,
-                          const std::function<void(sensors::Acquisition)>& take,
-                          const std::function<void(double)>& progress = {});
+                          const std::function<void(sensors::Acquisition)>& take, const PlayParams& params = {});
 
 }  // namespace credo::evaluation

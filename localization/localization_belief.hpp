@@ -57,7 +57,7 @@ struct LocalizationBeliefParams {
                                                     const LocalizationBeliefParams& params = {});
 
 /// Mass on "the localization is correct". The tracks that were matched in this acquisition and have a landmark take
-/// part.
+/// part; under the paper's method those that are missed, too.
 [[nodiscard]] evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& evidence,
                                                             const LocalizationBeliefParams& params = {});
 

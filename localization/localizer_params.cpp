@@ -11,7 +11,7 @@ namespace credo::localization {
 LocalizerParams LocalizerParams::with_method(perception::Method chosen) const {
   LocalizerParams params = *this;
   params.method = params.tracker.method = params.belief.method = chosen;
-  params.fit.matching.method = params.fit.evidence.method = chosen;
+  params.fit.method = params.fit.matching.method = params.fit.evidence.method = chosen;
   params.map.cut_walls_at_points = chosen == perception::Method::kPaper;
   return params;
 }

@@ -22,12 +22,20 @@ MapMatchingParams given_matching(MapMatchingParams params) {
 
 }  // namespace
 
+SplitPose moved(const SplitPose& from, const geometry::PoseEstimate& motion) {
+  const geometry::PoseEstimate independent = geometry::compose({from.pose, from.independent}, motion);
+  const geometry::PoseEstimate correlated =
+      geometry::compose({from.pose, from.correlated}, {motion.pose, Eigen::Matrix3d::Zero()});
+  return {independent.pose, independent.covariance, correlated.covariance};
+}
+
 SceneFitter::SceneFitter(const LandmarkMap& map, const sensors::Rig& rig, const SceneFitParams& params)
     : map_(&map),
       params_(params),
       matcher_(map, params.matching),
       first_matcher_(map, given_matching(params.matching)),
-      solver_(rig, params.solver) {}
+      solver_(rig, params.solver),
+      scan_matcher_(map, params.scan) {}
 
 void SceneFitter::fit(const Scene& scene, std::span<const tracking::Track> tracks, std::span<const Match> matches,
                       const SplitPose& expected, bool given, SceneFit& fit) {
@@ -35,7 +43,9 @@ void SceneFitter::fit(const Scene& scene, std::span<const tracking::Track> track
   fit.new_matches.clear();
   observe_tracks(scene, tracks, matches, fit);
   solve(scene, expected, fit);
-  match_map(scene, expected, given ? first_matcher_ : matcher_, fit);
+  // The paper's method looks at the map once, from the pose that the tracks gave (Clerentin et al., sec. 4.2).
+  const bool once = params_.method == perception::Method::kPaper && !given;
+  match_map(scene, expected, given ? first_matcher_ : matcher_, once ? 1 : params_.matching_rounds, fit);
 }
 
 void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& from, const SplitPose& expected,
@@ -44,7 +54,13 @@ void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& fro
   fit.new_matches.clear();
   wall_in_use_.assign(scene.segments.size(), false);
   solve(scene, {from.pose, from.covariance, Eigen::Matrix3d::Zero()}, fit);
-  match_map(scene, expected, matcher_, fit);
+  match_map(scene, expected, matcher_, params_.matching_rounds, fit);
+}
+
+void SceneFitter::gather(const Scene& scene, SceneFit& fit) const {
+  fit.evidence = gather_evidence(scene, *map_, fit.observations, fit.solution, params_.evidence);
+  if (params_.method == perception::Method::kDefault)
+    fit.evidence.scan_agreement = scan_matcher_.compare(scene.points, fit.pose.pose).share(params_.scan);
 }
 
 SplitPose SceneFitter::sharpen(const Scene& scene, const SplitPose& expected) {
@@ -112,7 +128,8 @@ void SceneFitter::solve(const Scene& scene, const SplitPose& expected, SceneFit&
   fit.pose = fit.solution.pose;
 }
 
-void SceneFitter::match_map(const Scene& scene, const SplitPose& expected, MapMatcher& matcher, SceneFit& fit) {
+void SceneFitter::match_map(const Scene& scene, const SplitPose& expected, MapMatcher& matcher, int rounds,
+                            SceneFit& fit) {
   const auto add = [&](const std::vector<MapMatch>& found) {
     for (const MapMatch& match : found) {
       observe_landmark(scene, match.primitive, match.landmark, -1, fit);
@@ -121,7 +138,7 @@ void SceneFitter::match_map(const Scene& scene, const SplitPose& expected, MapMa
     if (!found.empty()) solve(scene, expected, fit);
     return !found.empty();
   };
-  for (int round = 0; round < params_.matching_rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     list_unmatched(scene, fit);
     const bool walls = add(matcher.match_walls(scene, unmatched_, fit.estimate()));
     list_unmatched(scene, fit);

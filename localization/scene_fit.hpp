@@ -17,6 +17,7 @@
 namespace credo::localization {
 
 struct SceneFitParams {
+  perception::Method method = perception::Method::kDefault;
   MapMatchingParams matching;
   ObservationParams observations;
   PoseSolverParams solver;
@@ -35,6 +36,9 @@ struct SceneFit {
 
   [[nodiscard]] geometry::PoseEstimate estimate() const { return {pose.pose, pose.covariance()}; }
 };
+
+/// A pose carried over a motion whose errors are its own.
+[[nodiscard]] SplitPose moved(const SplitPose& from, const geometry::PoseEstimate& motion);
 
 /// From a scene and an expected pose to the pose that the plan gives: what the tracks continue, then what the map has
 /// for the rest, and the pose in turn (Clerentin et al., sec. 4.2). Keeps its memory.
@@ -56,6 +60,9 @@ class SceneFitter {
   void fit_anew(const perception::Scene& scene, const geometry::PoseEstimate& from, const SplitPose& expected,
                 SceneFit& fit);
 
+  /// What speaks for and against the pose of a fit, the tracks left out, into fit.evidence.
+  void gather(const perception::Scene& scene, SceneFit& fit) const;
+
   /// The expected pose as the walls alone correct it: they are few, long and far apart, so that even from a poor
   /// prediction none is taken for another. For looking for the rest; `expected` itself where no wall is matched.
   [[nodiscard]] SplitPose sharpen(const perception::Scene& scene, const SplitPose& expected);
@@ -64,13 +71,18 @@ class SceneFitter {
   [[nodiscard]] SplitPose solve_motion(const perception::Scene& scene, const geometry::PoseEstimate& motion,
                                        SceneFit& fit);
 
+  /// The raw scan against the plan.
+  [[nodiscard]] ScanMatcher& scan_matcher() { return scan_matcher_; }
+
  private:
   void observe_tracks(const perception::Scene& scene, std::span<const tracking::Track> tracks,
                       std::span<const tracking::Match> matches, SceneFit& fit);
   void observe_landmark(const perception::Scene& scene, int primitive, tracking::LandmarkId landmark, int track,
                         SceneFit& fit);
   void list_unmatched(const perception::Scene& scene, const SceneFit& fit);
-  void match_map(const perception::Scene& scene, const SplitPose& expected, MapMatcher& matcher, SceneFit& fit);
+  /// What continues no track of the map, walls before points, from a pose that every round knows better.
+  void match_map(const perception::Scene& scene, const SplitPose& expected, MapMatcher& matcher, int rounds,
+                 SceneFit& fit);
   void solve(const perception::Scene& scene, const SplitPose& expected, SceneFit& fit);
 
   const LandmarkMap* map_;
@@ -78,6 +90,7 @@ class SceneFitter {
   MapMatcher matcher_;
   MapMatcher first_matcher_;
   PoseSolver solver_;
+  ScanMatcher scan_matcher_;
 
   SceneFit by_walls_;
 

@@ -134,8 +134,8 @@ std::string to_yaml(const RunConfig& config) {
   out += "belief_yes: >-\n  Mass on \"the localization is correct\", fused by ";
   out +=
       paper ? "Dempster's rule from the number of matched primitives, the\n"
-              "  share of the detected ones that were matched, and the existence of each matched track (Clerentin et "
-              "al., sec. 4.5).\n"
+              "  share of the detected ones that were matched, and the existence of each track that has a landmark\n"
+              "  (Clerentin et al., sec. 4.5).\n"
             : "conflict to ignorance from the number of matched\n"
               "  primitives, the share of the detected ones that the plan explains, the share of the plan's points in "
               "sight that are\n"

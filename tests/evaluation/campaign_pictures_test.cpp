@@ -16,9 +16,9 @@ const CampaignSpec kSpec{.worlds = {"a"}, .seeds = 1, .degradations = {"nominal"
 
 std::vector<CampaignRun> runs_with(double error_m) {
   CampaignRow row;
-  row.localization.status = localization::Status::kLocalized;
-  row.localization.protection = {0.1, 0.2, 0.01, 0.02};
-  row.position_error_m = error_m;
+  row.sample.localization.estimate.pose.x = error_m;
+  row.sample.localization.status = localization::Status::kLocalized;
+  row.sample.localization.protection = {0.1, 0.2, 0.01, 0.02};
   return {{.key = {"a", 1, "nominal"}, .rows = {row}, .refused = ""}};
 }
 

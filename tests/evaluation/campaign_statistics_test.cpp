@@ -129,15 +129,5 @@ TEST(Bootstrap, GivesTheSameForTheSameSeed) {
   EXPECT_NE(a->low, c->low);
 }
 
-TEST(Proportion, IsThatOfClopperAndPearson) {
-  const auto none = proportion(0, 100), some = proportion(8, 10);
-  EXPECT_EQ(none->value, 0.0);
-  EXPECT_EQ(none->low, 0.0);
-  EXPECT_NEAR(none->high, 1.0 - std::pow(0.025, 0.01), 1e-9);
-  EXPECT_NEAR(some->low, 0.4439, 1e-4);  // binom.test(8, 10) of R
-  EXPECT_NEAR(some->high, 0.9748, 1e-4);
-  EXPECT_FALSE(proportion(0, 0));
-}
-
 }  // namespace
 }  // namespace credo::evaluation

@@ -16,12 +16,11 @@ using testing::StartsWith;
 /// An acquisition that is `error_m` off in x.
 CampaignRow row(double error_m, Status status = Status::kLocalized, double yes = 0.9) {
   CampaignRow row;
-  row.localization.estimate.pose.x = error_m;
-  row.localization.estimate.covariance.diagonal() << 0.01, 0.01, 0.01;
-  row.localization.belief = {.yes = yes, .no = 0.0, .unknown = 1.0 - yes};
-  row.localization.status = status;
-  row.localization.protection = {0.1, 0.2, 0.01, 0.02};
-  row.position_error_m = error_m;
+  row.sample.localization.estimate.pose.x = error_m;
+  row.sample.localization.estimate.covariance.diagonal() << 0.01, 0.01, 0.01;
+  row.sample.localization.belief = {.yes = yes, .no = 0.0, .unknown = 1.0 - yes};
+  row.sample.localization.status = status;
+  row.sample.localization.protection = {0.1, 0.2, 0.01, 0.02};
   return row;
 }
 
@@ -62,7 +61,7 @@ TEST(CampaignSummary, ErrorsAreOfPosesInTheMapOnly) {
 
 TEST(CampaignSummary, UsesTheWordsOfEveryTable) {
   CampaignRow degraded = row(0.1, Status::kUncertain);
-  degraded.degraded = true;
+  degraded.sample.degraded = true;
   const std::vector<CampaignRun> runs{
       run_of(1, {row(0.01), row(0.26), row(0.31), row(0.1, Status::kUncertain), degraded, row(0.5, Status::kLost, 0.1),
                  row(0.3, Status::kLocalized, 0.8), row(0.19), row(0.21), row(0.05)})};
@@ -76,7 +75,7 @@ TEST(CampaignSummary, UsesTheWordsOfEveryTable) {
 
 TEST(CampaignSummary, WithoutProtectionLevelsNothingIsAvailable) {
   CampaignRow unmonitored = row(0.01);
-  unmonitored.localization.protection = {};
+  unmonitored.sample.localization.protection = {};
   EXPECT_EQ(value_of({run_of(1, {unmonitored})}, "available"), 0.0);
 }
 

@@ -86,8 +86,8 @@ TEST_F(Campaign, FindsOutWhereTheRobotIsAndWhatItWasTold) {
   EXPECT_TRUE(untold.rows.front().decidable.has_value());
   EXPECT_FALSE(untold.rows.back().decidable.has_value());
   EXPECT_NEAR(told.rows.back().travelled_m, 2.4, 0.05);
-  EXPECT_NEAR(told.rows.back().truth.x, 3.2, 0.01);
-  EXPECT_LT(told.rows.back().position_error_m, 0.1);
+  EXPECT_NEAR(told.rows.back().sample.truth.x, 3.2, 0.01);
+  EXPECT_LT(told.rows.back().sample.position_m(), 0.1);
   EXPECT_GT(told.rows.back().matches.matches, 0);
 }
 

@@ -89,9 +89,8 @@ TEST_P(SimulatedDrive, KnowsTheTruthAtEveryAcquisition) {
 TEST_P(SimulatedDrive, TellsHowFarItIs) {
   const sim::Simulation simulation(world_, 3);
   std::vector<double> shares;
-  for_each_acquisition(
-      simulation, readings_of(simulation), [](const sensors::Acquisition&) {},
-      [&](double share) { shares.push_back(share); });
+  for_each_acquisition(simulation, readings_of(simulation), [](const sensors::Acquisition&) {},
+                       {.progress = [&](double share) { shares.push_back(share); }});
   ASSERT_FALSE(shares.empty());
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_EQ(shares.back(), 1.0);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "geometry/angles.hpp"
 #include "geometry/segment.hpp"
 #include "sim/trajectory.hpp"
 #include "tests/sim/test_worlds.hpp"
@@ -47,10 +48,30 @@ TEST(ShippedWorlds, AllLoadAndTheRobotFitsThrough) {
 }
 
 TEST(ShippedWorlds, TheCorridorEndHas42AcquisitionsOnTwoWays) {
-  const World one = load_world(shipped("corridor_end")), two = load_world(shipped("corridor_end_2"));
+  const World one = load_world(shipped("corridor_end"));
   EXPECT_EQ(Trajectory(one.path, one.drive).stops().size(), 21U);
-  EXPECT_EQ(Trajectory(two.path, two.drive).stops().size(), 21U);
-  EXPECT_EQ(one.panels.size(), two.panels.size());
+  for (const char* second : {"corridor_end_2", "corridor_end_curve"}) {
+    const World two = load_world(shipped(second));
+    EXPECT_EQ(Trajectory(two.path, two.drive).stops().size(), 21U) << second;
+    EXPECT_EQ(one.panels.size(), two.panels.size()) << second;
+  }
+}
+
+TEST(ShippedWorlds, TheCurveOfTheCorridorEndIsGentle) {
+  const World world = load_world(shipped("corridor_end_curve"));
+  const Trajectory way(world.path, world.drive);
+  double before = 0.0, most = 0.0;
+  for (std::size_t i = 1; i < way.stops().size(); ++i) {
+    const double turn =
+        geometry::angle_difference(way.pose_at(way.stops()[i]).theta, way.pose_at(way.stops()[i - 1]).theta);
+    EXPECT_NEAR((way.pose_at(way.stops()[i]).translation() - way.pose_at(way.stops()[i - 1]).translation()).norm(), 0.3,
+                0.005)
+        << "at " << i;
+    EXPECT_LT(std::abs(turn - before), geometry::to_radians(3.5)) << "at " << i;
+    most = std::max(most, std::abs(turn));
+    before = turn;
+  }
+  EXPECT_GT(most, geometry::to_radians(5.0));
 }
 
 TEST(Builder, AnOpeningIsCutThroughBothFacesOfAWall) {
