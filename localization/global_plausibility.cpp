@@ -33,8 +33,9 @@ double Plausibility::scan_share() const {
   return weight > 0.0 ? on_plan / weight : 0.0;
 }
 
-ScenePlausibility::ScenePlausibility(const LandmarkMap& map, const sensors::Rig& rig, const PlausibilityParams& params)
-    : map_(&map), params_(params), rays_(map.surfaces()), field_(map.surfaces()) {
+ScenePlausibility::ScenePlausibility(const LandmarkMap& map, const DistanceField& field, const sensors::Rig& rig,
+                                     const PlausibilityParams& params)
+    : map_(&map), params_(params), rays_(map.surfaces()), field_(&field) {
   if (!rig.range_finders.empty()) range_finder_.push_back(rig.range_finders.front());
 }
 
@@ -90,7 +91,7 @@ Plausibility ScenePlausibility::at(const Pose2& T_map_base) {
       ++plausibility.behind;
       continue;
     }
-    const double distance_m = field_(t + R * beam.point);
+    const double distance_m = (*field_)(t + R * beam.point);
     sum += on_plan(distance_m / beam.sigma_m);
     ++(distance_m <= tolerance_m ? plausibility.on_plan : plausibility.before);
   }

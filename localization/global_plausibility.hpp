@@ -65,8 +65,9 @@ class ScenePlausibility {
     double sigma_m = 0.0;
   };
 
-  /// \param map  must outlive this
-  ScenePlausibility(const LandmarkMap& map, const sensors::Rig& rig, const PlausibilityParams& params = {});
+  /// \param map, field  of the same plan; must outlive this
+  ScenePlausibility(const LandmarkMap& map, const DistanceField& field, const sensors::Rig& rig,
+                    const PlausibilityParams& params = {});
 
   /// Everything below is about this scene, until the next call.
   void look_at(const perception::Scene& scene);
@@ -81,7 +82,7 @@ class ScenePlausibility {
   /// What a beam adds to Plausibility::log_ratio where nothing stands before its end, which is so many of its standard
   /// deviations from the nearest wall. The most that it can add, so that it bounds what poses nearby can reach.
   [[nodiscard]] double on_plan(double sigmas) const;
-  [[nodiscard]] const DistanceField& field() const { return field_; }
+  [[nodiscard]] const DistanceField& field() const { return *field_; }
 
   /// The pose nearby that explains the scene best: point to line along the beams, and bearings, by robust
   /// Gauss-Newton with a scale that shrinks.
@@ -115,7 +116,7 @@ class ScenePlausibility {
   PlausibilityParams params_;
   std::vector<sensors::RangeFinder> range_finder_;  ///< one or none
   RayIndex rays_;
-  DistanceField field_;
+  const DistanceField* field_;
 
   // The scene.
   std::vector<Beam> beams_;

@@ -45,8 +45,9 @@ std::size_t bin_of(double line_angle) {
 
 }  // namespace
 
-GlobalSearch::GlobalSearch(const LandmarkMap& map, const sensors::Rig& rig, const GlobalSearchParams& params)
-    : map_(&map), params_(params), plausibility_(map, rig, params.plausibility) {
+GlobalSearch::GlobalSearch(const LandmarkMap& map, const DistanceField& field, const sensors::Rig& rig,
+                           const GlobalSearchParams& params)
+    : map_(&map), params_(params), plausibility_(map, field, rig, params.plausibility) {
   for (int i = 0; i <= static_cast<int>(kMostSigmas * kStepsPerSigma); ++i)
     on_plan_.push_back(plausibility_.on_plan(i / kStepsPerSigma));
   if (map.surfaces().empty()) return;

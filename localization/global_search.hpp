@@ -56,8 +56,9 @@ struct PoseCandidate {
 /// and thinned out. Keeps its memory; the same scene gives the same candidates.
 class GlobalSearch {
  public:
-  /// \param map  must outlive this
-  GlobalSearch(const LandmarkMap& map, const sensors::Rig& rig, const GlobalSearchParams& params = {});
+  /// \param map, field  of the same plan; must outlive this
+  GlobalSearch(const LandmarkMap& map, const DistanceField& field, const sensors::Rig& rig,
+               const GlobalSearchParams& params = {});
 
   /// By falling plausibility. Empty where the scene is too poor (ScenePlausibility::blind) or the plan is empty.
   /// \returns a reference that stays valid until the next call

@@ -55,7 +55,7 @@ struct Localizer::State {
         tracker(params.tracker),
         labels(map, params.contradictions_allowed),
         monitor(params.integrity),
-        search(map, fitter.scan_matcher().field(), params.search),
+        search(map, fitter.scan_matcher().field(), rig, params.search),
         elsewhere(search, fitter, params.hypotheses),
         absolute(initial.has_value() && !map.empty()),
         predictor(params.constant_velocity) {
@@ -231,7 +231,7 @@ bool Localizer::State::match_anew(const Scene& scene, const SplitPose& expected)
   fitter.gather(scene, other);
   if (!(quality(other, scene) > quality(fit, scene) + params.search_gain)) return false;
   std::swap(fit, other);
-  jumped = jumped || (fit.pose.pose.translation() - expected.pose.translation()).norm() > params.hypotheses.same_m;
+  jumped = jumped || (fit.pose.pose.translation() - expected.pose.translation()).norm() > params.hypotheses.meet_m;
   labels.forget_all(tracker);
   return true;
 }

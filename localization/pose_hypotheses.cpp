@@ -22,39 +22,51 @@ bool meet(const geometry::Pose2& a, const geometry::Pose2& b, double within_m, d
 }  // namespace
 
 void PoseHypotheses::clear() {
+  tracked_.clear();
   held_.clear();
   none_ = 0.0;
   checked_ = false;
+  scenes_ = 0;
 }
 
-void PoseHypotheses::start(const Scene& scene) {
-  clear();
-  for (const PoseCandidate& candidate : search_->search(scene))
-    held_.push_back({.estimate = candidate.estimate, .now = candidate.plausibility, .scenes = 1});
-  weigh(1.0);
-}
-
-void PoseHypotheses::add(const Scene& scene, const PoseEstimate& estimate) {
-  const PoseCandidate refined = search_->refine(scene, estimate);
-  const double best_now = held_.empty() ? refined.plausibility.log_ratio : held_.front().now.log_ratio;
-  const double behind = std::max(refined.plausibility.log_ratio - best_now, -params_.most_at_once);
-  held_.push_back({.estimate = refined.estimate, .log = behind, .now = refined.plausibility, .scenes = 1});
-  tidy();
+bool PoseHypotheses::held_near(const geometry::Pose2& pose) const {
+  return std::any_of(held_.begin(), held_.end(), [&](const Held& held) {
+    return meet(held.estimate.pose, pose, params_.meet_m, params_.meet_rad);
+  });
 }
 
 void PoseHypotheses::update(const Scene& scene, const PoseEstimate& motion) {
-  if (held_.empty()) return start(scene);
-  carry(scene, motion);
-  if (!scene.range_finder_seen) return;
-  const double way_m = motion.pose.translation().norm();
-  weigh(std::min(1.0, way_m / params_.fresh_way_m));
-  if (none_ > params_.search_from_none) {
-    // What is searched for is one of the poses that "none of these" stands for.
-    search_again(scene, params_.depth, none_ + params_.most_at_once);
-  } else if (convincing() && !checked_) {
+  ++scenes_;
+  if (held_.empty()) {
+    start(scene);
+  } else {
+    carry(scene, motion);
+    if (scene.range_finder_seen) {
+      weigh(std::min(1.0, motion.pose.translation().norm() / params_.fresh_way_m));
+      doubt();
+      if (none_ > params_.search_from_none)
+        // What is searched for is one of the poses that "none of these" stands for.
+        search_again(scene, params_.depth, none_ + params_.most_at_once);
+    }
+  }
+  if (!checked_ && convincing()) {
     checked_ = true;
     search_again(scene, params_.rival_within, -params_.rival_behind);
   }
+  fit_best(scene);
+}
+
+/// All poses that may explain the scene, and the tracked ones.
+void PoseHypotheses::start(const Scene& scene) {
+  for (const PoseEstimate& pose : tracked_) {
+    const PoseCandidate refined = search_->refine(scene, pose);
+    held_.push_back({.estimate = refined.estimate, .now = refined.plausibility, .scenes = 1});
+  }
+  tracked_.clear();
+  for (const PoseCandidate& candidate : search_->search(scene))
+    held_.push_back({.estimate = candidate.estimate, .now = candidate.plausibility, .scenes = 1});
+  weigh(1.0);
+  doubt();
 }
 
 /// Moves all; refines them where something is seen.
@@ -64,6 +76,7 @@ void PoseHypotheses::carry(const Scene& scene, const PoseEstimate& motion) {
   for (Held& held : held_) {
     held.estimate = geometry::compose(held.estimate, motion);
     held.way_m += motion.pose.translation().norm();
+    held.turn_rad += std::abs(motion.pose.theta);
     if (!scene.range_finder_seen) continue;
     const PoseCandidate refined = search_->refine(scene, held.estimate);
     held.estimate = {refined.estimate.pose, refined.estimate.covariance + unknown};
@@ -83,31 +96,30 @@ void PoseHypotheses::weigh(double freshness) {
     held.log -= freshness * std::clamp(lacking, 0.0, params_.most_at_once);
   }
   tidy();
-  // The best pose of all that was seen, not the one that fits the latest scene best.
+}
+
+/// "None of these" against the pose that all scenes speak for, not the one that fits the latest best.
+void PoseHypotheses::doubt() {
+  if (held_.empty()) return;
   none_ -= std::clamp(held_.front().now.log_ratio, -params_.most_at_once, params_.most_at_once);
   none_ = std::clamp(none_, -params_.most_against_none, params_.most_against_none);
 }
 
-/// Candidates that are not held yet join, as plausible as `log_of_best` and what they lack to the best candidate.
-/// \param within  log ratio behind the best pose at which a candidate does not join
+/// Candidates that are not held yet join, as plausible as `log_of_best` and what they lack to the best pose held.
+/// \param within  log ratio behind that pose at which a candidate does not join
 void PoseHypotheses::search_again(const Scene& scene, double within, double log_of_best) {
-  const double best_held = held_.front().now.log_ratio;
-  const std::size_t known = held_.size();
+  const double best_now = held_.front().now.log_ratio;
+  double ahead = 0.0;
+  kept_.clear();
   for (const PoseCandidate& candidate : search_->search(scene)) {
-    const double behind = candidate.plausibility.log_ratio - best_held;
+    const double behind = candidate.plausibility.log_ratio - best_now;
     if (behind < -within) break;
-    const bool held =
-        std::any_of(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(known), [&](const Held& h) {
-          return meet(h.estimate.pose, candidate.estimate.pose, params_.meet_m, params_.meet_rad);
-        });
-    if (held) continue;
-    held_.push_back({.estimate = candidate.estimate,
-                     .log = log_of_best + std::clamp(behind, -params_.most_at_once, 0.0),
-                     .now = candidate.plausibility,
-                     .scenes = 1});
+    if (held_near(candidate.estimate.pose)) continue;
+    const double log = log_of_best + std::clamp(behind, -params_.most_at_once, 0.0);
+    ahead = std::max(ahead, log);
+    kept_.push_back({.estimate = candidate.estimate, .log = log, .now = candidate.plausibility, .scenes = 1});
   }
-  const double ahead =
-      std::max_element(held_.begin(), held_.end(), [](const Held& a, const Held& b) { return a.log < b.log; })->log;
+  held_.insert(held_.end(), kept_.begin(), kept_.end());
   none_ -= ahead;
   tidy();
 }
@@ -132,23 +144,15 @@ void PoseHypotheses::tidy() {
   held_.swap(kept_);
 }
 
+/// What the scene's primitives say from the best pose.
+void PoseHypotheses::fit_best(const Scene& scene) {
+  if (held_.empty()) return;
+  const PoseEstimate& best = held_.front().estimate;
+  fitter_->fit_anew(scene, best, {best.pose, best.covariance, Eigen::Matrix3d::Zero()}, best_);
+  fitter_->gather(scene, best_);
+}
+
 double PoseHypotheses::plausibility_of_none() const { return held_.empty() ? 1.0 : std::exp(std::min(0.0, none_)); }
-
-double PoseHypotheses::belief_in_none() const {
-  if (held_.empty()) return 0.0;
-  return 1.0 - std::exp(std::min(0.0, -none_));
-}
-
-std::vector<Hypothesis> PoseHypotheses::hypotheses() const {
-  std::vector<Hypothesis> shown;
-  const double best = std::exp(std::min(0.0, -none_));
-  for (const Held& held : held_) {
-    const double plausibility = best * std::exp(held.log);
-    if (plausibility >= params_.shown_plausibility) shown.push_back({held.estimate.pose, 0.0, plausibility});
-  }
-  if (!held_.empty() && none_ < 0.0) shown.front().belief = belief_in_best();
-  return shown;
-}
 
 double PoseHypotheses::belief_in_best() const {
   if (held_.empty() || none_ >= 0.0) return 0.0;
@@ -156,14 +160,21 @@ double PoseHypotheses::belief_in_best() const {
   return 1.0 - std::max(second, plausibility_of_none());
 }
 
-std::optional<PoseEstimate> PoseHypotheses::best() const {
-  if (held_.empty()) return {};
-  return held_.front().estimate;
+std::vector<Hypothesis> PoseHypotheses::listed() const {
+  std::vector<Hypothesis> list;
+  const double best = std::exp(std::min(0.0, -none_));
+  for (const Held& held : held_) {
+    const double plausibility = best * std::exp(held.log);
+    if (plausibility < params_.shown_plausibility) break;
+    list.push_back({held.estimate.pose, list.empty() ? belief_in_best() : 0.0, plausibility});
+  }
+  return list;
 }
 
-std::optional<PoseEstimate> PoseHypotheses::resolved() const {
-  if (!checked_ || !convincing()) return {};
-  return held_.front().estimate;
+double PoseHypotheses::lead_over(const geometry::Pose2& pose) const {
+  for (const Held& held : held_)
+    if (meet(held.estimate.pose, pose, params_.meet_m, params_.meet_rad)) return -held.log;
+  return params_.depth;
 }
 
 /// All that is asked of a resolved pose, but that rivals have been searched for.
@@ -174,8 +185,8 @@ bool PoseHypotheses::convincing() const {
   const double sigma_m = std::sqrt(geometry::principal_axes(P.topLeftCorner<2, 2>()).largest);
   return belief_in_best() >= params_.least_belief && held.now.log_ratio >= params_.least_log_ratio &&
          held.now.scan_share() >= params_.least_scan_share && held.scenes >= params_.least_scenes &&
-         held.way_m >= params_.least_way_m && sigma_m <= params_.most_sigma_m &&
-         std::sqrt(P(2, 2)) <= params_.most_sigma_rad;
+         (held.way_m >= params_.least_way_m || held.turn_rad >= params_.least_turn_rad) &&
+         sigma_m <= params_.most_sigma_m && std::sqrt(P(2, 2)) <= params_.most_sigma_rad;
 }
 
 }  // namespace credo::localization

@@ -8,6 +8,7 @@
 
 #include "localization/global_search.hpp"
 #include "localization/localization.hpp"
+#include "localization/scene_fit.hpp"
 
 namespace credo::localization {
 
@@ -38,7 +39,8 @@ struct PoseHypothesesParams {
   double least_log_ratio = 0.0;   ///< explains the scene better than a place that is on no plan, with
   double least_scan_share = 0.7;  ///< so much of the scan that says something on the plan,
   int least_scenes = 4;           ///< has been borne out by so many scenes,
-  double least_way_m = 0.8;       ///< and on so long a way,
+  double least_way_m = 0.5;       ///< on so long a way,
+  double least_turn_rad = 1.0;    ///< or so large a turn,
   double most_sigma_m = 0.15;     ///< and is known so well
   double most_sigma_rad = 0.06;
 
@@ -56,51 +58,61 @@ struct PoseHypothesesParams {
 /// better, as in a CUSUM test (Page 1954). Keeps its memory; deterministic.
 class PoseHypotheses {
  public:
-  /// \param search  must outlive this
-  explicit PoseHypotheses(GlobalSearch& search, const PoseHypothesesParams& params = {})
-      : search_(&search), params_(params) {}
+  /// \param search, fitter  of the same plan; must outlive this
+  PoseHypotheses(GlobalSearch& search, SceneFitter& fitter, const PoseHypothesesParams& params = {})
+      : search_(&search), fitter_(&fitter), params_(params) {}
 
-  /// Forgets everything and starts with all poses that may explain the scene.
-  void start(const perception::Scene& scene);
-  /// One more pose that is thought of, such as one that has been tracked, as plausible as the latest scene makes it.
-  void add(const perception::Scene& scene, const geometry::PoseEstimate& estimate);
-  /// The next scene. Where no pose is held, or none explains what is seen, new ones are searched for. A blind scene
-  /// only moves the poses. \param motion  T_previous_current of the base
-  void update(const perception::Scene& scene, const geometry::PoseEstimate& motion);
+  /// Forgets everything.
   void clear();
+  /// A pose that has been tracked, to be among the first ones. Before the first update.
+  void add(const SplitPose& pose) { tracked_.push_back({pose.pose, pose.covariance()}); }
+  /// One scene. In the first one, and where none of the poses held explains what is seen, the whole plan is searched. A
+  /// scene without a scan only moves the poses. \param motion  from the scene before; of no matter in the first one
+  void update(const perception::Scene& scene, const geometry::PoseEstimate& motion);
 
-  [[nodiscard]] bool empty() const { return held_.empty(); }
-  /// Those that are plausible enough to be shown, by falling plausibility.
-  [[nodiscard]] std::vector<Hypothesis> hypotheses() const;
-  /// Belief and plausibility of "none of these". 0 and 1 before the first scene.
-  [[nodiscard]] double belief_in_none() const;
+  /// Before the first update.
+  [[nodiscard]] bool empty() const { return scenes_ == 0; }
+  /// Those plausible enough to be told, by falling plausibility.
+  [[nodiscard]] std::vector<Hypothesis> listed() const;
+  /// 1 where no pose is held.
   [[nodiscard]] double plausibility_of_none() const;
-  /// The most plausible pose, whatever its belief; nothing where none is held.
-  [[nodiscard]] std::optional<geometry::PoseEstimate> best() const;
-  /// The best pose where the parameters call it resolved, and no rival was found that would explain the latest scene.
-  [[nodiscard]] std::optional<geometry::PoseEstimate> resolved() const;
+  /// What the most plausible one rests on; nothing where there is none.
+  [[nodiscard]] const SceneFit* best() const { return held_.empty() ? nullptr : &best_; }
+  /// The best one is the truth: see the parameters. Rivals that would explain the latest scene have been searched for.
+  [[nodiscard]] bool resolved() const { return checked_ && convincing(); }
+  /// Log plausibility of the best against that of a pose, or against the least that is kept where it is not among them.
+  [[nodiscard]] double lead_over(const geometry::Pose2& pose) const;
 
  private:
   struct Held {
     geometry::PoseEstimate estimate;
     double log = 0.0;  ///< L_i, the best one's is 0
-    Plausibility now;  ///< in the latest scene
+    Plausibility now;  ///< in the latest scene with a scan
     int scenes = 0;    ///< that bore it out
     double way_m = 0.0;
+    double turn_rad = 0.0;
   };
 
+  void start(const perception::Scene& scene);
   void carry(const perception::Scene& scene, const geometry::PoseEstimate& motion);
   void weigh(double freshness);
+  void doubt();
   void search_again(const perception::Scene& scene, double within, double log_of_best);
   void tidy();
+  void fit_best(const perception::Scene& scene);
+  [[nodiscard]] bool held_near(const geometry::Pose2& pose) const;
   [[nodiscard]] double belief_in_best() const;
   [[nodiscard]] bool convincing() const;
 
   GlobalSearch* search_;
+  SceneFitter* fitter_;
   PoseHypothesesParams params_;
+  std::vector<geometry::PoseEstimate> tracked_;
   std::vector<Held> held_, kept_;  ///< by falling log
-  double none_ = 0.0;              ///< L_none, against the best one's 0
-  bool checked_ = false;           ///< rivals of the best pose have been searched for since it became the best
+  SceneFit best_;
+  double none_ = 0.0;     ///< L_none, against the best one's 0
+  bool checked_ = false;  ///< rivals of the best pose have been searched for
+  int scenes_ = 0;
 };
 
 }  // namespace credo::localization
