@@ -118,9 +118,18 @@ void ScenePlausibility::list_sights(const Pose2& pose) {
     if (range_m > params_.sight_m || range_m < kNearest_m) continue;
     if (rays_.cast(camera, way / range_m, range_m - kBefore_m).range_m < range_m) continue;
     if (!map_->type_from(point, camera)) continue;
-    sights_.push_back({.azimuth = std::atan2(way.y(), way.x()),
-                       .way = way,
-                       .sigma = std::hypot(params_.bearing_sigma_rad, params_.bearing_sigma_m / range_m)});
+    sights_.push_back({.point = point.position});
+  }
+  aim_sights(pose);
+}
+
+/// The same points from a pose beside the one that they were listed for.
+void ScenePlausibility::aim_sights(const Pose2& pose) {
+  const Vector2d camera = pose * camera_;
+  for (Sight& sight : sights_) {
+    sight.way = sight.point - camera;
+    sight.azimuth = std::atan2(sight.way.y(), sight.way.x());
+    sight.sigma = std::hypot(params_.bearing_sigma_rad, params_.bearing_sigma_m / sight.way.norm());
   }
 }
 
@@ -174,9 +183,8 @@ void ScenePlausibility::pull_beams(const Pose2& pose, double scale_m, NormalEqua
 }
 
 /// Each radial line and each point in sight that it may be, as far as that is likelier than chance.
-void ScenePlausibility::pull_bearings(const Pose2& pose, NormalEquations& equations) {
+void ScenePlausibility::pull_bearings(const Pose2& pose, NormalEquations& equations) const {
   const Vector2d arm = pose.rotation() * camera_;
-  list_sights(pose);
   for (const double bearing : bearings_)
     for (const Sight& sight : sights_) {
       const double residual = geometry::angle_difference(sight.azimuth, bearing + pose.theta);
@@ -195,6 +203,7 @@ PoseEstimate ScenePlausibility::refine(const PoseEstimate& expected) {
   constexpr double kFinest_m = 0.06, kSmallestStep = 1e-3;
   const Matrix3d prior = expected.covariance.inverse();
   PoseEstimate refined = expected;
+  bool sights_known = false;
   double scale_m =
       std::clamp(std::sqrt(expected.covariance(0, 0) + expected.covariance(1, 1)), kFinest_m, DistanceField::kReach_m);
   for (int i = 0; i < kMost; ++i) {
@@ -203,7 +212,12 @@ PoseEstimate ScenePlausibility::refine(const PoseEstimate& expected) {
                                  geometry::angle_difference(pose.theta, expected.pose.theta));
     NormalEquations equations{prior, -prior * from_expected};
     pull_beams(pose, scale_m, equations);
-    pull_bearings(pose, equations);
+    if (scale_m <= kFinest_m) {
+      // What is in sight is listed once: it hardly changes on the last steps.
+      sights_known ? aim_sights(pose) : list_sights(pose);
+      sights_known = true;
+      pull_bearings(pose, equations);
+    }
     refined.covariance = equations.information.inverse();
     const Vector3d step = refined.covariance * equations.pull;
     refined.pose = {pose.x + step.x(), pose.y + step.y(), geometry::wrap_angle(pose.theta + step.z())};

@@ -94,8 +94,9 @@ class ScenePlausibility {
   static constexpr std::size_t kLeastBeams = 20;
   /// A point of the plan as the camera should see it.
   struct Sight {
-    double azimuth = 0.0;                           ///< in the map's directions
-    Eigen::Vector2d way = Eigen::Vector2d::Zero();  ///< from the camera, map frame
+    Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< map frame
+    double azimuth = 0.0;                             ///< in the map's directions
+    Eigen::Vector2d way = Eigen::Vector2d::Zero();    ///< from the camera, map frame
     double sigma = 0.0;
   };
   struct NormalEquations {
@@ -106,11 +107,12 @@ class ScenePlausibility {
   };
 
   void list_sights(const geometry::Pose2& pose);
+  void aim_sights(const geometry::Pose2& pose);
   [[nodiscard]] double mapped_share() const;
   [[nodiscard]] double against_chance(const Sight& sight, double sigmas) const;
   [[nodiscard]] double bearings_at(const geometry::Pose2& pose);
   void pull_beams(const geometry::Pose2& pose, double scale_m, NormalEquations& equations) const;
-  void pull_bearings(const geometry::Pose2& pose, NormalEquations& equations);
+  void pull_bearings(const geometry::Pose2& pose, NormalEquations& equations) const;
 
   const LandmarkMap* map_;
   PlausibilityParams params_;
