@@ -81,6 +81,7 @@ struct Localizer::State {
   int matched_before = 0;        ///< primitives that the latest fix rests on
   int doubted = 0;               ///< acquisitions in a row in which the plan was not recognised
   bool jumped = false;           ///< in this acquisition: the pose was found some way from where it was expected
+  bool unconfirmed = false;      ///< the pose has jumped, and the hypotheses have not borne it out yet
   bool found_elsewhere = false;  ///< in this acquisition: the pose is another one than was thought
   int unchecked = 0;             ///< acquisitions since the scan last lay on the plan
   PoseHistory history;
@@ -103,6 +104,7 @@ struct Localizer::State {
   void look_elsewhere(const Scene& scene, const PoseEstimate& motion);
   void go_to(const SceneFit& found);
   void report_hypotheses(Localization& fix) const;
+  void hold_back(Localization& fix) const;
   [[nodiscard]] Localization report(const Scene& scene) const;
   [[nodiscard]] Integrity watch();
   void weigh(const Scene& scene, Localization& fix);
@@ -251,8 +253,10 @@ void Localizer::State::look_elsewhere(const Scene& scene, const PoseEstimate& mo
     if (doubted < params.doubts_before_search && !jumped) return;
     elsewhere.add(fit.pose);
   }
+  unconfirmed = absolute && (unconfirmed || jumped);
   elsewhere.update(scene, motion);
   if (!elsewhere.resolved()) return;
+  unconfirmed = false;
   const SceneFit& best = *elsewhere.best();
   if (absolute && elsewhere.lead_over(fit.pose.pose) == 0.0) {
     elsewhere.clear();
@@ -288,6 +292,13 @@ void Localizer::State::report_hypotheses(Localization& fix) const {
   fix.estimate.covariance += spread(fix.hypotheses, fix.estimate.pose);
   fix.status = Status::kAmbiguous;
   fix.reason = "several poses fit: a place that looks like others";
+}
+
+/// A pose that has jumped is not relied on before the hypotheses have borne it out.
+void Localizer::State::hold_back(Localization& fix) const {
+  if (!unconfirmed || fix.status != Status::kLocalized) return;
+  fix.status = Status::kUncertain;
+  fix.reason = "the pose has jumped, and is not confirmed yet";
 }
 
 /// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
@@ -441,6 +452,7 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   Localization fix = s.report(scene);
   s.report_hypotheses(fix);
   if (s.absolute) s.weigh(scene, fix);
+  s.hold_back(fix);
   s.remember(fix);
   return fix;
 }
