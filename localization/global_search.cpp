@@ -17,194 +17,288 @@ using perception::Primitive;
 using perception::PrimitiveType;
 using perception::Scene;
 
-using std::numbers::pi;
+constexpr double kStepsPerSigma = 16.0;
+constexpr double kMostSigmas = 4.0;
+constexpr std::size_t kHeadingBins = 180;  // of lines: 1 degree
 
-double direction_of(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
+double direction_angle(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
-/// Remainder in [0, pi).
-double line_direction(double angle) {
-  const double rest = std::fmod(angle, pi);
-  return rest < 0.0 ? rest + pi : rest;
+bool near(const Pose2& a, const Pose2& b, double apart_m, double apart_rad) {
+  return (a.translation() - b.translation()).squaredNorm() < apart_m * apart_m &&
+         std::abs(geometry::angle_difference(a.theta, b.theta)) < apart_rad;
 }
 
-bool is_believed(const Primitive& primitive, const GlobalSearchParams& params) {
-  return primitive.existence.pignistic() >= params.min_believed;
+/// Keeps the `most` first ones in the order of `before`, which is total, so that what is kept does not depend on
+/// chance.
+template <class Item, class Before>
+void keep_first(std::vector<Item>& items, std::size_t most, Before before) {
+  const auto end = items.begin() + static_cast<std::ptrdiff_t>(std::min(most, items.size()));
+  std::partial_sort(items.begin(), end, items.end(), before);
+  items.erase(end, items.end());
+}
+
+/// The bin of a line's direction.
+std::size_t bin_of(double line_angle) {
+  const double turns = line_angle / std::numbers::pi;
+  return static_cast<std::size_t>((turns - std::floor(turns)) * kHeadingBins) % kHeadingBins;
 }
 
 }  // namespace
 
-GlobalSearch::GlobalSearch(const LandmarkMap& map, const DistanceField& field, const GlobalSearchParams& params)
-    : map_(&map), field_(&field), params_(params) {
+GlobalSearch::GlobalSearch(const LandmarkMap& map, const DistanceField& field, const sensors::Rig& rig,
+                           const GlobalSearchParams& params)
+    : map_(&map), params_(params), plausibility_(map, field, rig, params.plausibility) {
+  for (int i = 0; i <= static_cast<int>(kMostSigmas * kStepsPerSigma); ++i)
+    on_plan_.push_back(plausibility_.on_plan(i / kStepsPerSigma));
   if (map.surfaces().empty()) return;
-  Vector2d low = map.surfaces().front().a, high = low;
+  low_ = high_ = map.surfaces().front().a;
   for (const geometry::Segment& wall : map.surfaces()) {
-    low = low.cwiseMin(wall.a).cwiseMin(wall.b);
-    high = high.cwiseMax(wall.a).cwiseMax(wall.b);
+    low_ = low_.cwiseMin(wall.a).cwiseMin(wall.b);
+    high_ = high_.cwiseMax(wall.a).cwiseMax(wall.b);
   }
-  for (double y = low.y(); y <= high.y(); y += params.lattice_m)
-    for (double x = low.x(); x <= high.x(); x += params.lattice_m)
-      if (field({x, y}) >= params.nearest_wall_m) lattice_.emplace_back(x, y);
 }
 
-/// Every wall of the scene votes with every wall of the map for the heading between them, modulo pi; the weight is the
-/// shorter of the two lengths.
+Plausibility GlobalSearch::plausibility(const Scene& scene, const Pose2& pose) {
+  plausibility_.look_at(scene);
+  return plausibility_.at(pose);
+}
+
+PoseCandidate GlobalSearch::refine(const Scene& scene, const geometry::PoseEstimate& expected) {
+  plausibility_.look_at(scene);
+  const geometry::PoseEstimate refined = plausibility_.refine(expected);
+  return {refined, plausibility_.at(refined.pose)};
+}
+
+const std::vector<PoseCandidate>& GlobalSearch::search(const Scene& scene) {
+  candidates_.clear();
+  plausibility_.look_at(scene);
+  if (plausibility_.blind() || map_->surfaces().empty()) return candidates_;
+  find_headings(scene);
+  thin_beams();
+  seeds_.clear();
+  add_point_constellations(scene);
+  add_wall_constellations(scene);
+  bound_constellations();
+  add_lattice();
+  choose_seeds();
+  judge_seeds();
+  return candidates_;
+}
+
+/// The turns under which the directions of the walls seen are those of walls of the plan; all where few are seen.
 void GlobalSearch::find_headings(const Scene& scene) {
-  const int bins = std::max(1, static_cast<int>(std::lround(pi / params_.heading_bin_rad)));
-  const double width = pi / bins;
-  votes_.assign(static_cast<std::size_t>(bins), 0.0);
+  constexpr int kSmoothing = 3;  // bins to either side
   headings_.clear();
-  const auto bin = [&](int i) -> double& { return votes_[static_cast<std::size_t>((i % bins + bins) % bins)]; };
-  for (const Primitive& seen : scene.primitives) {
-    if (seen.type != PrimitiveType::kWall || !is_believed(seen, params_)) continue;
-    for (const WallLandmark& wall : map_->walls()) {
-      const double at = line_direction(direction_of(wall.direction) - seen.line.angle) / width - 0.5;
-      const int first = static_cast<int>(std::floor(at));
-      const double weight = std::min(seen.extent.length(), wall.length_m), share = at - first;
-      bin(first) += (1.0 - share) * weight;
-      bin(first + 1) += share * weight;
-    }
+  std::array<double, kHeadingBins> plan{}, votes{};
+  for (const WallLandmark& wall : map_->walls())
+    for (int k = -kSmoothing; k <= kSmoothing; ++k)
+      plan[(bin_of(direction_angle(wall.direction)) + kHeadingBins + static_cast<std::size_t>(k)) % kHeadingBins] +=
+          wall.length_m * (1.0 - std::abs(k) / (kSmoothing + 1.0));
+  double seen_m = 0.0;
+  for (const Primitive& wall : scene.primitives) {
+    if (wall.type != PrimitiveType::kWall) continue;
+    const double weight = wall.existence.pignistic() * wall.extent.length();
+    seen_m += weight;
+    for (std::size_t shift = 0; shift < kHeadingBins; ++shift)
+      votes[shift] += weight * plan[(bin_of(wall.line.angle) + shift) % kHeadingBins];
   }
-  const double most = *std::max_element(votes_.begin(), votes_.end());
-  if (!(most > 0.0)) {
-    for (double heading = -pi; heading < pi - 1e-9; heading += params_.heading_step_rad) headings_.push_back(heading);
+  const double most = *std::max_element(votes.begin(), votes.end());
+  walls_tell_heading_ = seen_m >= params_.least_walls_m && most > 0.0;
+  if (!walls_tell_heading_) {
+    const int count = static_cast<int>(std::ceil(geometry::kTurn / params_.heading_step_rad));
+    for (int i = 0; i < count; ++i) headings_.push_back(geometry::wrap_angle(geometry::kTurn * i / count));
     return;
   }
-  for (int i = 0; i < bins; ++i) {
-    const double here = bin(i), before = bin(i - 1), after = bin(i + 1);
-    if (here < params_.heading_share * most || here < before || here <= after) continue;
-    const double middle = (i + 0.5 + (after - before) / (before + here + after)) * width;
-    headings_.push_back(geometry::wrap_angle(middle));
-    headings_.push_back(geometry::wrap_angle(middle + pi));
+  for (std::size_t shift = 0; shift < kHeadingBins; ++shift) {
+    const double before = votes[(shift + kHeadingBins - 1) % kHeadingBins], after = votes[(shift + 1) % kHeadingBins];
+    if (votes[shift] < params_.heading_share * most || votes[shift] < before || votes[shift] <= after) continue;
+    const double heading = std::numbers::pi * static_cast<double>(shift) / kHeadingBins;
+    headings_.push_back(geometry::wrap_angle(heading));
+    headings_.push_back(geometry::wrap_angle(heading + std::numbers::pi));
   }
 }
 
-void GlobalSearch::choose_points(const Scene& scene) {
-  const auto most = static_cast<std::size_t>(params_.points);
-  const std::size_t every = std::max<std::size_t>(1, (scene.points.size() + most - 1) / most);
-  points_.clear();
-  for (std::size_t i = 0; i < scene.points.size(); i += every) points_.push_back(scene.points[i].position);
+void GlobalSearch::thin_beams() {
+  const std::size_t most = walls_tell_heading_ ? 48 : 24;
+  const auto beams = plausibility_.beams();
+  ends_.clear();
+  for (std::size_t i = 0; i < most && i < beams.size(); ++i) {
+    const ScenePlausibility::Beam& beam = beams[beams.size() > most ? i * beams.size() / most : i];
+    ends_.push_back({beam.point, beam.range_m, kStepsPerSigma / beam.sigma_m});
+  }
 }
 
-void GlobalSearch::turn_points(double heading) {
+/// Prepares bound() for poses of a heading.
+void GlobalSearch::turn_beams(double heading, const Cell& cell) {
   const Eigen::Matrix2d R = Pose2{0.0, 0.0, heading}.rotation();
   turned_.clear();
-  for (const Vector2d& point : points_) turned_.push_back(R * point);
+  for (const BeamEnd& end : ends_)
+    turned_.push_back({R * end.point, cell.half_m + cell.half_rad * end.range_m, end.inverse_sigma});
 }
 
-/// From a place, with the heading that `turned_` has.
-double GlobalSearch::score(const Vector2d& position) const {
+/// What no pose of the cell about a position exceeds, as far as the thinned beams tell.
+double GlobalSearch::bound(const Vector2d& position) const {
   double sum = 0.0;
-  for (const Vector2d& point : turned_) sum += DistanceField::kReach_m - (*field_)(position + point);
-  return sum / (DistanceField::kReach_m * static_cast<double>(turned_.size()));
-}
-
-void GlobalSearch::consider(const Vector2d& position, double heading) {
-  if ((*field_)(position) < params_.nearest_wall_m) return;
-  const double found = score(position);
-  best_ = std::max(best_, found);
-  // What is a step of the lattice beside its place gains as much again when it is refined.
-  if (found >= best_ - 3.0 * params_.worst_score) considered_.push_back({{position.x(), position.y(), heading}, found});
-}
-
-void GlobalSearch::try_constellations(const Scene& scene, double heading) {
-  const Eigen::Matrix2d R = Pose2{0.0, 0.0, heading}.rotation();
-  const std::vector<Primitive>& seen = scene.primitives;
-  for (const Primitive& point : seen) {
-    if (point.type == PrimitiveType::kWall || point.bearing_only || !is_believed(point, params_)) continue;
-    for (const PointLandmark& landmark : map_->points()) {
-      const Vector2d place = landmark.position - R * point.position;
-      if (map_->type_from(landmark, place) == point.type) consider(place, heading);
-    }
+  for (const BeamEnd& end : turned_) {
+    const double nearest_m = plausibility_.field()(position + end.point) - end.range_m;
+    const double step = nearest_m > 0.0 ? nearest_m * end.inverse_sigma : 0.0;
+    sum += on_plan_[std::min(static_cast<std::size_t>(step), on_plan_.size() - 1)];
   }
-  // Two walls: n_1 and n_2 in the map, and how far from them the robot is.
-  constexpr double kParallel = 0.5;  // sine of the angle between two walls
-  constexpr double kSameDirection_rad = 0.1;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (seen[i].type != PrimitiveType::kWall || !is_believed(seen[i], params_)) continue;
-    for (std::size_t j = i + 1; j < seen.size(); ++j) {
-      if (seen[j].type != PrimitiveType::kWall || !is_believed(seen[j], params_)) continue;
-      if (std::abs(std::sin(seen[i].line.angle - seen[j].line.angle)) < kParallel) continue;
-      for (const WallLandmark& first : map_->walls()) {
-        if (std::abs(geometry::wrap_line_angle(seen[i].line.angle + heading - direction_of(first.direction))) >
-            kSameDirection_rad)
-          continue;
-        for (const WallLandmark& second : map_->walls()) {
-          if (std::abs(geometry::wrap_line_angle(seen[j].line.angle + heading - direction_of(second.direction))) >
-              kSameDirection_rad)
-            continue;
-          Eigen::Matrix2d normals;
-          normals << first.normal().transpose(), second.normal().transpose();
-          const Vector2d offsets(first.normal().dot(first.extent.a - R * seen[i].line.centroid),
-                                 second.normal().dot(second.extent.a - R * seen[j].line.centroid));
-          consider(normals.inverse() * offsets, heading);
-        }
+  return sum * static_cast<double>(plausibility_.beams().size()) / static_cast<double>(turned_.size());
+}
+
+/// A corner, edge or mark that is one of the plan's, under each heading.
+void GlobalSearch::add_point_constellations(const Scene& scene) {
+  if (!walls_tell_heading_) return;
+  for (const Primitive& seen : scene.primitives) {
+    if (seen.type == PrimitiveType::kWall || seen.bearing_only) continue;
+    if (seen.existence.pignistic() < params_.least_belief) continue;
+    for (const double heading : headings_) {
+      const Vector2d arm = Pose2{0.0, 0.0, heading}.rotation() * seen.position;
+      for (const PointLandmark& point : map_->points()) {
+        const Vector2d position = point.position - arm;
+        if (map_->type_from(point, position) == seen.type) seeds_.push_back({{position.x(), position.y(), heading}});
       }
     }
   }
 }
 
-void GlobalSearch::try_lattice(double heading) {
-  for (const Vector2d& place : lattice_) consider(place, heading);
+/// Two walls that are not parallel make a pose.
+void GlobalSearch::add_wall_constellations(const Scene& scene) {
+  walls_.clear();
+  for (const Primitive& seen : scene.primitives)
+    if (seen.type == PrimitiveType::kWall && seen.existence.pignistic() >= params_.least_belief)
+      walls_.push_back(&seen);
+  keep_first(walls_, static_cast<std::size_t>(params_.most_walls), [](const Primitive* a, const Primitive* b) {
+    const double one = a->extent.length(), other = b->extent.length();
+    return one != other ? one > other : a < b;
+  });
+  for (std::size_t i = 0; i < walls_.size(); ++i)
+    for (std::size_t j = i + 1; j < walls_.size(); ++j)
+      if (std::abs(geometry::cross(walls_[i]->line.direction(), walls_[j]->line.direction())) > params_.least_wall_sine)
+        add_wall_pair(*walls_[i], *walls_[j]);
 }
 
-/// Uphill in ever smaller steps of position and heading.
-void GlobalSearch::refine(PoseCandidate& candidate) {
-  for (double step = 0.5 * params_.lattice_m; step > 0.01; step *= 0.5) {
-    const double turn = 0.14 * step;  // 1 degree at 12.5 cm
-    const Pose2 centre = candidate.pose;
-    for (const int k : {-1, 0, 1}) {
-      const double heading = geometry::wrap_angle(centre.theta + k * turn);
-      turn_points(heading);
-      for (const int i : {-1, 0, 1})
-        for (const int j : {-1, 0, 1}) {
-          const Pose2 pose{centre.x + i * step, centre.y + j * step, heading};
-          const double found = score(pose.translation());
-          if (found > candidate.score) candidate = {pose, found};
+void GlobalSearch::add_wall_pair(const Primitive& first, const Primitive& second) {
+  constexpr double kSameDirection_rad = 0.1;
+  const double angle_between = second.line.angle - first.line.angle;
+  const double first_m = first.extent.length() - params_.wall_excess_m;
+  const double second_m = second.extent.length() - params_.wall_excess_m;
+  for (const WallLandmark& one : map_->walls()) {
+    if (one.length_m < first_m) continue;
+    const double angle = direction_angle(one.direction);
+    for (const WallLandmark& other : map_->walls()) {
+      if (other.length_m < second_m) continue;
+      const double off = geometry::wrap_line_angle(direction_angle(other.direction) - angle - angle_between);
+      if (std::abs(off) > kSameDirection_rad) continue;
+      for (const double turn : {0.0, std::numbers::pi}) {
+        const double heading = geometry::wrap_angle(angle - first.line.angle + turn);
+        const Eigen::Matrix2d R = Pose2{0.0, 0.0, heading}.rotation();
+        Eigen::Matrix2d normals;
+        normals << one.normal().transpose(), other.normal().transpose();
+        const Vector2d offsets(one.normal().dot(one.extent.a - R * first.line.centroid),
+                               other.normal().dot(other.extent.a - R * second.line.centroid));
+        const Vector2d position = normals.inverse() * offsets;
+        // What is seen of a wall lies on it.
+        const double along = one.direction.dot(position + R * first.line.centroid - one.extent.a);
+        const double along_other = other.direction.dot(position + R * second.line.centroid - other.extent.a);
+        if (along < 0.0 || along > one.length_m || along_other < 0.0 || along_other > other.length_m) continue;
+        seeds_.push_back({{position.x(), position.y(), heading}});
+      }
+    }
+  }
+}
+
+void GlobalSearch::bound_constellations() {
+  const Cell cell{0.5 * params_.seed_sigma_m, 0.5 * params_.wall_heading_sigma_rad};
+  for (Seed& seed : seeds_) {
+    turn_beams(seed.pose.theta, cell);
+    seed.bound = bound(seed.pose.translation());
+  }
+}
+
+void GlobalSearch::add_lattice() {
+  nodes_.clear();
+  const double half_rad = walls_tell_heading_ ? params_.wall_heading_sigma_rad : 0.5 * params_.heading_step_rad;
+  double side_m = params_.coarsest_m;
+  const auto steps = [&](double extent_m) { return static_cast<int>(std::ceil(extent_m / side_m)); };
+  const int columns = steps(high_.x() - low_.x()), rows = steps(high_.y() - low_.y());
+  for (const double heading : headings_) {
+    turn_beams(heading, {side_m * std::numbers::sqrt2 / 2.0, half_rad});
+    for (int row = 0; row < rows; ++row)
+      for (int column = 0; column < columns; ++column) {
+        const Vector2d position = low_ + side_m * Vector2d(column + 0.5, row + 0.5);
+        const double reached = bound(position);
+        if (reached >= params_.least_log_ratio) nodes_.push_back({{position.x(), position.y(), heading}, reached});
+      }
+  }
+  const auto better = [](const Seed& a, const Seed& b) {
+    if (a.bound != b.bound) return a.bound > b.bound;
+    if (a.pose.theta != b.pose.theta) return a.pose.theta < b.pose.theta;
+    return a.pose.y != b.pose.y ? a.pose.y < b.pose.y : a.pose.x < b.pose.x;
+  };
+  keep_first(nodes_, params_.most_nodes.front(), better);
+  for (std::size_t level = 1; level < params_.most_nodes.size(); ++level) {
+    side_m *= 0.5;
+    std::sort(nodes_.begin(), nodes_.end(), [](const Seed& a, const Seed& b) { return a.pose.theta < b.pose.theta; });
+    children_.clear();
+    double heading = std::numeric_limits<double>::quiet_NaN();
+    for (const Seed& node : nodes_) {
+      if (node.pose.theta != heading) {
+        heading = node.pose.theta;
+        turn_beams(heading, {side_m * std::numbers::sqrt2 / 2.0, half_rad});
+      }
+      for (const double dx : {-0.5, 0.5})
+        for (const double dy : {-0.5, 0.5}) {
+          const Vector2d position = node.pose.translation() + side_m * Vector2d(dx, dy);
+          const double reached = bound(position);
+          if (reached >= params_.least_log_ratio) children_.push_back({{position.x(), position.y(), heading}, reached});
         }
     }
+    keep_first(children_, params_.most_nodes[level], better);
+    nodes_.swap(children_);
+  }
+  seeds_.insert(seeds_.end(), nodes_.begin(), nodes_.end());
+}
+
+/// The best ones that are not the same place.
+void GlobalSearch::choose_seeds() {
+  constexpr std::size_t kMostCompared = 5000;
+  keep_first(seeds_, kMostCompared, [](const Seed& a, const Seed& b) {
+    if (a.bound != b.bound) return a.bound > b.bound;
+    if (a.pose.theta != b.pose.theta) return a.pose.theta < b.pose.theta;
+    return a.pose.y != b.pose.y ? a.pose.y < b.pose.y : a.pose.x < b.pose.x;
+  });
+  chosen_.clear();
+  for (const Seed& seed : seeds_) {
+    if (chosen_.size() >= params_.most_refined) return;
+    const bool new_place = std::none_of(chosen_.begin(), chosen_.end(), [&](const Seed& other) {
+      return near(seed.pose, other.pose, params_.seed_apart_m, params_.seed_apart_rad);
+    });
+    if (new_place) chosen_.push_back(seed);
   }
 }
 
-/// The best first; of those that are near each other the best one. Refined twice: roughly sorted before, and sorted
-/// out after.
-void GlobalSearch::keep_different() {
-  const auto near = [&](const PoseCandidate& a, const PoseCandidate& b) {
-    return (a.pose.translation() - b.pose.translation()).norm() < params_.apart_m &&
-           std::abs(geometry::angle_difference(a.pose.theta, b.pose.theta)) < params_.apart_rad;
-  };
-  const auto better = [](const PoseCandidate& a, const PoseCandidate& b) { return a.score > b.score; };
-  const auto sort_out = [&](std::size_t most) {
-    std::stable_sort(considered_.begin(), considered_.end(), better);
-    candidates_.clear();
-    for (const PoseCandidate& one : considered_) {
-      if (candidates_.size() >= most) break;
-      if (std::none_of(candidates_.begin(), candidates_.end(), [&](const auto& kept) { return near(kept, one); }))
-        candidates_.push_back(one);
-    }
-  };
-  const auto most = static_cast<std::size_t>(params_.most);
-  sort_out(5 * most);
-  for (PoseCandidate& candidate : candidates_) refine(candidate);
-  considered_ = candidates_;
-  sort_out(most);
-  const double least = candidates_.empty() ? 0.0 : candidates_.front().score - params_.worst_score;
-  std::erase_if(candidates_, [least](const PoseCandidate& candidate) { return candidate.score < least; });
-}
-
-const std::vector<PoseCandidate>& GlobalSearch::search(const Scene& scene) {
-  candidates_.clear();
-  considered_.clear();
-  best_ = 0.0;
-  choose_points(scene);
-  if (points_.empty() || lattice_.empty()) return candidates_;
-  find_headings(scene);
-  for (const double heading : headings_) {
-    turn_points(heading);
-    try_constellations(scene, heading);
-    try_lattice(heading);
+void GlobalSearch::judge_seeds() {
+  const double position = params_.seed_sigma_m * params_.seed_sigma_m;
+  const double turn = params_.seed_sigma_rad * params_.seed_sigma_rad;
+  judged_.clear();
+  for (const Seed& seed : chosen_) {
+    const geometry::PoseEstimate refined =
+        plausibility_.refine({seed.pose, Eigen::Vector3d(position, position, turn).asDiagonal()});
+    judged_.push_back({refined, plausibility_.at(refined.pose)});
   }
-  keep_different();
-  return candidates_;
+  std::stable_sort(judged_.begin(), judged_.end(), [](const PoseCandidate& a, const PoseCandidate& b) {
+    return a.plausibility.log_ratio > b.plausibility.log_ratio;
+  });
+  for (const PoseCandidate& candidate : judged_) {
+    if (candidates_.size() >= params_.most_candidates) return;
+    if (candidate.plausibility.log_ratio < judged_.front().plausibility.log_ratio - params_.depth) return;
+    const bool new_place = std::none_of(candidates_.begin(), candidates_.end(), [&](const PoseCandidate& other) {
+      return near(candidate.estimate.pose, other.estimate.pose, params_.apart_m, params_.apart_rad);
+    });
+    if (new_place) candidates_.push_back(candidate);
+  }
 }
 
 }  // namespace credo::localization

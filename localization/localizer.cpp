@@ -55,7 +55,7 @@ struct Localizer::State {
         tracker(params.tracker),
         labels(map, params.contradictions_allowed),
         monitor(params.integrity),
-        search(map, fitter.scan_matcher().field(), params.search),
+        search(map, fitter.scan_matcher().field(), rig, params.search),
         elsewhere(search, fitter, params.hypotheses),
         absolute(initial.has_value() && !map.empty()),
         predictor(params.constant_velocity) {
@@ -81,6 +81,7 @@ struct Localizer::State {
   int matched_before = 0;        ///< primitives that the latest fix rests on
   int doubted = 0;               ///< acquisitions in a row in which the plan was not recognised
   bool jumped = false;           ///< in this acquisition: the pose was found some way from where it was expected
+  bool unconfirmed = false;      ///< the pose has jumped, and the hypotheses have not borne it out yet
   bool found_elsewhere = false;  ///< in this acquisition: the pose is another one than was thought
   int trusted = 1000;  ///< acquisitions in a row in which nothing spoke against the pose; at the start it was given
   int unchecked = 0;   ///< acquisitions since the scan last lay on the plan
@@ -232,7 +233,7 @@ bool Localizer::State::match_anew(const Scene& scene, const SplitPose& expected)
   fitter.gather(scene, other);
   if (!(quality(other, scene) > quality(fit, scene) + params.search_gain)) return false;
   std::swap(fit, other);
-  jumped = jumped || (fit.pose.pose.translation() - expected.pose.translation()).norm() > params.hypotheses.same_m;
+  jumped = jumped || (fit.pose.pose.translation() - expected.pose.translation()).norm() > params.hypotheses.meet_m;
   labels.forget_all(tracker);
   return true;
 }
@@ -252,8 +253,10 @@ void Localizer::State::look_elsewhere(const Scene& scene, const PoseEstimate& mo
     if (doubted < params.doubts_before_search && !jumped) return;
     elsewhere.add(fit.pose);
   }
+  unconfirmed = absolute && (unconfirmed || jumped);
   elsewhere.update(scene, motion);
   if (!elsewhere.resolved()) return;
+  unconfirmed = false;
   const SceneFit& best = *elsewhere.best();
   if (!absolute || elsewhere.lead_over(fit.pose.pose) > 0.0) go_to(best);
   elsewhere.clear();
@@ -379,7 +382,7 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   fix.off_plan = agreement_belief(evidence, params.belief).no > 0.0;
   fix.contradicted = bearing_belief(evidence, params.belief).no > 0.0;
   trusted = fix.unrecognised || fix.off_plan || fix.contradicted ? 0 : trusted + 1;
-  fix.doubted = trusted < params.trusted_again_after;
+  fix.doubted = unconfirmed || trusted < params.trusted_again_after;
   if (fix.unrecognised || fix.off_plan) {
     fit.pose.independent += doubt();
     fix.estimate.covariance += doubt();

@@ -51,28 +51,6 @@ ScanAgreement ScanMatcher::compare(std::span<const ScanPoint> points, const Pose
   return agreement;
 }
 
-double ScanMatcher::mean_cost(std::span<const ScanPoint> points, const Pose2& T_map_base) const {
-  const Eigen::Matrix2d R = T_map_base.rotation();
-  const std::size_t every = stride(points.size(), params_.most_points);
-  double sum = 0.0;
-  int count = 0;
-  for (std::size_t i = 0; i < points.size(); i += every) {
-    const ScanPoint& point = points[i];
-    ++count;
-    const Vector2d in_map = T_map_base.translation() + R * point.position;
-    const double sigma = std::hypot(params_.sigma_m, point.sigma_m);
-    const double distance = field_(in_map) / sigma;
-    const double cost = 0.5 * distance * distance;
-    if (cost <= params_.before_cost) {
-      sum += cost;
-      continue;
-    }
-    const bool before = map_->sees(in_map - point.range_m * (R * point.ray), in_map, 2.0 * sigma);
-    sum += std::min(cost, before ? params_.before_cost : params_.behind_cost);
-  }
-  return count > 0 ? sum / count : 0.0;
-}
-
 /// Mean nearness of the chosen points to walls, 0 .. 1, from a pose whose turn `turned_` has already.
 double ScanMatcher::fit(const Pose2& pose) const {
   double sum = 0.0;

@@ -19,11 +19,6 @@ struct ScanAgreementParams {
   double on_plan_sigmas = 2.0;  ///< so many of its standard deviations, lies on it
   double before_weight = 0.10;  ///< of a point in the plan's free space: something may have been put there
 
-  // What a point costs in log likelihood at most, against one that lies on a wall,
-  double before_cost = 1.5;  ///< where something may have been put before a wall of the plan,
-  double behind_cost = 4.0;  ///< and where nothing can be seen.
-  double sigma_m = 0.04;     ///< of a point on a wall: plan, pose and what the noise law does not know
-
   // The search, in steps around the pose that is expected.
   double search_sigmas = 2.5;       ///< how far, in the expected pose's standard deviations, but
   double search_at_most_m = 1.0;    ///< no farther
@@ -53,11 +48,6 @@ class ScanMatcher {
   /// \param points  in the base frame
   [[nodiscard]] ScanAgreement compare(std::span<const sensors::ScanPoint> points,
                                       const geometry::Pose2& T_map_base) const;
-
-  /// What a point costs on average in log likelihood at a pose: 0 where all lie on walls, behind_cost where all beams
-  /// would have to pass walls (beam model of Thrun, Burgard and Fox, Probabilistic Robotics, sec. 6.3, in the
-  /// likelihood field of sec. 6.4). 0 without points.
-  [[nodiscard]] double mean_cost(std::span<const sensors::ScanPoint> points, const geometry::Pose2& T_map_base) const;
 
   [[nodiscard]] const DistanceField& field() const { return field_; }
 

@@ -76,6 +76,21 @@ TEST(GlobalLocalization, CarriedAwayItSaysSoAtOnceAndFindsItself) {
     EXPECT_LT(position_error(localize(drive.acquire(truth, kStep)), truth), 0.05);
 }
 
+TEST(GlobalLocalization, CarriedAShortWayItIsNotLocalizedBeforeThatIsConfirmed) {
+  Drive drive(10);
+  Pipeline localize(room(), given(kStart));
+  Pose2 truth = kStart;
+  for (int i = 0; i < 6; ++i)
+    ASSERT_EQ(localize(drive.acquire(truth = truth * kStep, kStep)).status, Status::kLocalized);
+  truth = {truth.x + 0.9, truth.y + 0.5, truth.theta};
+  for (int i = 0; i < 2; ++i, truth = truth * kStep)
+    EXPECT_NE(localize(drive.acquire(truth, kStep)).status, Status::kLocalized) << "after " << i;
+  Localization fix;
+  for (int i = 0; i < 6; ++i) fix = localize(drive.acquire(truth = truth * kStep, kStep));
+  EXPECT_EQ(fix.status, Status::kLocalized) << fix.reason;
+  EXPECT_LT(position_error(fix, truth), 0.05);
+}
+
 TEST(GlobalLocalization, CarriedAwayAgainWhileItLooksForItselfItStartsAnew) {
   Drive drive(8);
   Pipeline localize(room(), given(kStart));
