@@ -10,7 +10,7 @@
 #include "apps/about.hpp"
 #include "apps/pipeline.hpp"
 #include "apps/played_drive.hpp"
-#include "apps/simulate.hpp"
+#include "apps/shipped.hpp"
 #include "evaluation/localization_score.hpp"
 
 namespace credo::apps {
@@ -63,7 +63,7 @@ std::optional<LifeExample> best_life(const ClerentinParams& params, const std::v
 ClerentinExperiment reproduce_clerentin(const ClerentinParams& params, const std::function<void(double)>& progress) {
   ClerentinExperiment experiment{params, {}, {}, {}};
   std::vector<sim::World> worlds;
-  for (const std::string& way : params.ways) worlds.push_back(sim::load_world(find_world(way)));
+  for (const std::string& way : params.ways) worlds.push_back(sim::load_world(find_shipped(way, kWorlds)));
   const double drives = static_cast<double>(worlds.size()) * params.seeds;
   double done = 0.0;
   for (int s = 0; s < params.seeds; ++s) {

@@ -11,14 +11,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json optional(const std::optional<double>& value) {
+ordered_json number_or_null(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
 ordered_json counted(const evaluation::Proportion& p) {
   const evaluation::Bounds b = p.interval();
-  return {
-      {"count", p.count}, {"of", p.of}, {"share", optional(p.share())}, {"lower_95", b.lower}, {"upper_95", b.upper}};
+  return {{"count", p.count},
+          {"of", p.of},
+          {"share", number_or_null(p.share())},
+          {"lower_95", b.lower},
+          {"upper_95", b.upper}};
 }
 
 ordered_json counted(const std::optional<evaluation::Proportion>& p) { return p ? counted(*p) : ordered_json(nullptr); }
@@ -38,8 +41,8 @@ ordered_json detectors(const evaluation::Integrity& integrity) {
   ordered_json result = ordered_json::array();
   for (const evaluation::Detector& d : integrity.detectors) {
     result.push_back({{"name", d.name},
-                      {"auroc", optional(d.curve.auroc)},
-                      {"average_precision", optional(d.curve.average_precision)},
+                      {"auroc", number_or_null(d.curve.auroc)},
+                      {"average_precision", number_or_null(d.curve.average_precision)},
                       {"curve", thinned(d.curve.points, [](const evaluation::OperatingPoint& p) {
                          return ordered_json{
                              {"recall", p.recall}, {"false_alarms", p.false_alarm_share}, {"precision", p.precision}};
@@ -86,7 +89,7 @@ ordered_json regions(const evaluation::ProtectionDiagram& diagram) {
 
 ordered_json to_json(const evaluation::Integrity& integrity) {
   ordered_json named;
-  for (const auto& [name, value] : evaluation::figures(integrity)) named[name] = optional(value);
+  for (const auto& [name, value] : evaluation::figures(integrity)) named[name] = number_or_null(value);
   ordered_json result{
       {"runs", integrity.runs},
       {"events_known", integrity.events_known},

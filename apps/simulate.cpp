@@ -12,9 +12,11 @@
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/option_checks.hpp"
+#include "apps/shipped.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/dataset_writer.hpp"
 #include "datasets/map_server.hpp"
+#include "evaluation/simulated_drive.hpp"
 #include "sim/degradation.hpp"
 #include "sim/random_world.hpp"
 #include "sim/simulation.hpp"
@@ -33,18 +35,10 @@ struct SimulateOptions {
   bool force = false;
 };
 
-const char* const kRandomWorld = "random";
-
-std::vector<fs::path> world_folders() {
-  std::error_code ignored;
-  const fs::path binary = fs::read_symlink("/proc/self/exe", ignored);
-  return {binary.parent_path() / ".." / "share" / "credo" / "worlds", fs::path(CREDO_WORLDS)};
-}
-
 sim::World world_of(const SimulateOptions& options) {
   if (options.world != kRandomWorld || fs::exists(options.world)) {
     if (!options.kind.empty()) throw std::runtime_error("--kind is for the world 'random', not for " + options.world);
-    return sim::load_world(find_world(options.world));
+    return sim::load_world(find_shipped(options.world, kWorlds));
   }
   sim::RandomWorldParams params;
   if (!options.kind.empty()) params.kind = sim::building_kind(options.kind);
@@ -96,7 +90,7 @@ sim::Sink sink_into(datasets::DatasetWriter& writer, Progress& progress) {
 void simulate(const sim::World& world, std::uint64_t seed, const fs::path& out, bool force) {
   const sim::Simulation simulation(world, seed);
   const Interruptible interruptible;
-  datasets::DatasetWriter writer(out, header_of(simulation), {.overwrite = force});
+  datasets::DatasetWriter writer(out, evaluation::header_of(simulation), {.overwrite = force});
   writer.record_events();
   Progress progress("simulating " + world.name);
   simulation.run(sink_into(writer, progress), static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
@@ -106,34 +100,6 @@ void simulate(const sim::World& world, std::uint64_t seed, const fs::path& out, 
 }
 
 }  // namespace
-
-fs::path find_world(const std::string& name) {
-  if (fs::exists(name)) return name;
-  std::vector<std::string> known;
-  for (const fs::path& folder : world_folders()) {
-    if (fs::is_regular_file(folder / (name + ".yaml"))) return folder / (name + ".yaml");
-    if (!fs::is_directory(folder)) continue;
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".yaml") known.push_back(entry.path().stem().string());
-  }
-  std::sort(known.begin(), known.end());
-  known.erase(std::unique(known.begin(), known.end()), known.end());
-  std::string message = name + ": no such world file; worlds that come with credo: " + std::string(kRandomWorld);
-  for (const std::string& world : known) message += " " + world;
-  throw std::runtime_error(message);
-}
-
-datasets::DatasetHeader header_of(const sim::Simulation& simulation) {
-  const sim::World& world = simulation.world();
-  return {.name = world.name,
-          .description = world.description,
-          .license = "CC0-1.0",
-          .robot_radius_m = world.robot_radius_m,
-          .initial_pose = simulation.initial_pose(),
-          .acquisition_sensor = simulation.acquisition_sensor(),
-          .rig = simulation.rig(),
-          .floor_plan = simulation.floor_plan()};
-}
 
 void simulate_into(const sim::World& world, std::uint64_t seed, const fs::path& out, bool force) {
   about("world " + world.name, [&] { simulate(world, seed, out, force); });

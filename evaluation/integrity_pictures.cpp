@@ -18,7 +18,7 @@ using results::Color;
 using results::Plot;
 namespace colors = results::colors;
 
-constexpr double kPanelWidth = 560.0, kPanelHeight = 480.0;
+constexpr double kPanelWidth = 600.0, kPanelHeight = 480.0;
 
 /// Two charts beside each other, and a line of text below.
 cv::Mat side_by_side(const Plot& left, const Plot& right, const std::string& note) {

@@ -82,7 +82,8 @@ struct Localizer::State {
   int doubted = 0;               ///< acquisitions in a row in which the plan was not recognised
   bool jumped = false;           ///< in this acquisition: the pose was found some way from where it was expected
   bool found_elsewhere = false;  ///< in this acquisition: the pose is another one than was thought
-  int unchecked = 0;             ///< acquisitions since the scan last lay on the plan
+  int trusted = 1000;  ///< acquisitions in a row in which nothing spoke against the pose; at the start it was given
+  int unchecked = 0;   ///< acquisitions since the scan last lay on the plan
   PoseHistory history;
   MotionPredictor predictor;
   std::vector<double> landmark_beliefs;  ///< by observation, a workspace
@@ -254,12 +255,9 @@ void Localizer::State::look_elsewhere(const Scene& scene, const PoseEstimate& mo
   elsewhere.update(scene, motion);
   if (!elsewhere.resolved()) return;
   const SceneFit& best = *elsewhere.best();
-  if (absolute && elsewhere.lead_over(fit.pose.pose) == 0.0) {
-    elsewhere.clear();
-    return;
-  }
-  go_to(best);
+  if (!absolute || elsewhere.lead_over(fit.pose.pose) > 0.0) go_to(best);
   elsewhere.clear();
+  trusted = params.trusted_again_after;
 }
 
 /// The pose is another one than was thought.
@@ -354,12 +352,17 @@ Integrity Localizer::State::watch() {
 /// Belief and status of an absolute pose. Where nothing is seen there is no evidence against it: what was believed
 /// fades into not knowing. The paper's method knows its p + 2 criteria alone.
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
+  const bool paper = params.method == perception::Method::kPaper;
   LocalizationEvidence& evidence = fit.evidence;
   evidence.tracks = tracker.tracks();
+  if (!paper) {
+    const Integrity integrity = watch();
+    fix.protection = integrity.protection;
+    if (integrity.landmarks >= params.belief.least_in_sight) evidence.separation = integrity.separation;
+  }
   const bool on_plan = evidence.scan_agreement && agreement_belief(evidence, params.belief).no < 0.5;
   unchecked = on_plan ? 0 : unchecked + 1;
   const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
-  const bool paper = params.method == perception::Method::kPaper;
   const evidence::FusedBinaryMass belief =
       scene.primitives.empty() && !paper
           ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
@@ -374,7 +377,9 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
     fix.belief = evidence::discount(fix.belief, params.unchecked_reliability);
   fix.unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
   fix.off_plan = agreement_belief(evidence, params.belief).no > 0.0;
-  if (!paper) fix.protection = watch().protection;
+  fix.contradicted = bearing_belief(evidence, params.belief).no > 0.0;
+  trusted = fix.unrecognised || fix.off_plan || fix.contradicted ? 0 : trusted + 1;
+  fix.doubted = trusted < params.trusted_again_after;
   if (fix.unrecognised || fix.off_plan) {
     fit.pose.independent += doubt();
     fix.estimate.covariance += doubt();

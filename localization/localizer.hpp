@@ -46,6 +46,7 @@ struct LocalizerParams {
   double blind_reliability = 0.8;       ///< of the last belief where nothing at all is seen
   int doubts_before_search =
       2;                        ///< acquisitions in a row without the plan recognised: then it is looked for everywhere
+  int trusted_again_after = 2;  ///< acquisitions without doubt after one with, until the pose is trusted again
   double elsewhere_lead = 3.0;  ///< log plausibility by which another pose has to lead for the pose to be doubted
   int contradictions_allowed = 1;  ///< a track that contradicts the pose more often in a row loses its landmark
 

@@ -393,8 +393,7 @@ void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState
     Vector2d residual;
     evaluate(observations[k], x, residual, nullptr);
     const double squared = residual.dot((l.covariance.noise + l.covariance.plan).inverse() * residual);
-    const bool bearing = observations[k].kind == ObservationKind::kBearing;
-    solution.linearised.push_back({observations[k].landmark, bearing, residual, l.by_state, weight});
+    solution.linearised.push_back({observations[k].landmark, observations[k].kind, residual, l.by_state, weight});
     solution.mahalanobis_squared.push_back(squared);
     solution.outlier.push_back(squared > gates[static_cast<std::size_t>(observations[k].dimension() - 1)]);
   }

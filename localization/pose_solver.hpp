@@ -69,7 +69,7 @@ struct PoseState {
 /// An observation as the solution used it, linearised there.
 struct LinearisedObservation {
   tracking::LandmarkId landmark = tracking::kNoLandmark;
-  bool bearing = false;  ///< the camera's alone
+  ObservationKind kind = ObservationKind::kWall;
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();
   PoseState::Jacobian by_state = PoseState::Jacobian::Zero();
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< robust weight included; a bearing's second row is idle

@@ -59,8 +59,10 @@ void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& fro
 
 void SceneFitter::gather(const Scene& scene, SceneFit& fit) const {
   fit.evidence = gather_evidence(scene, *map_, fit.observations, fit.solution, params_.evidence);
-  if (params_.method == perception::Method::kDefault)
-    fit.evidence.scan_agreement = scan_matcher_.compare(scene.points, fit.pose.pose).share(params_.scan);
+  if (params_.method == perception::Method::kPaper) return;
+  fit.evidence.scan_agreement = scan_matcher_.compare(scene.points, fit.pose.pose).share(params_.scan);
+  fit.evidence.bearing_agreement =
+      compare_bearings(scene, *map_, fit.pose.pose, params_.bearings).share(params_.bearings);
 }
 
 SplitPose SceneFitter::sharpen(const Scene& scene, const SplitPose& expected) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "localization/bearing_agreement.hpp"
 #include "localization/landmark_map.hpp"
 #include "localization/localization_evidence.hpp"
 #include "localization/map_matching.hpp"
@@ -23,6 +24,7 @@ struct SceneFitParams {
   PoseSolverParams solver;
   ScanAgreementParams scan;
   LocalizationEvidenceParams evidence;
+  BearingAgreementParams bearings;
   int matching_rounds = 3;  ///< map matching and pose in turn: each round knows the pose better
 };
 
