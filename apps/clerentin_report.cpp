@@ -23,7 +23,7 @@ using perception::PrimitiveType;
 // ---------------------------------------------------------------------------------------------- the figures
 
 /// One line of the table.
-struct Figure {
+struct PrintedFigure {
   const char* key;    ///< in the JSON
   const char* words;  ///< in the text
   const char* paper;  ///< as printed; "-": not reported, or in a lost picture
@@ -32,36 +32,36 @@ struct Figure {
 };
 
 constexpr std::array kFigures{
-    Figure{"mean_position_cm", "mean position error [cm]", "13", 1,
-           [](const ReproducedFigures& f) -> std::optional<double> { return 100.0 * f.mean_position_m; }},
-    Figure{
+    PrintedFigure{"mean_position_cm", "mean position error [cm]", "13", 1,
+                  [](const ReproducedFigures& f) -> std::optional<double> { return 100.0 * f.mean_position_m; }},
+    PrintedFigure{
         "mean_heading_deg", "mean heading error [deg]", "3", 2,
         [](const ReproducedFigures& f) -> std::optional<double> { return geometry::to_degrees(f.mean_heading_rad); }},
-    Figure{"within_45_cm", "acquisitions within 45 cm", "-", 1,
-           [](const ReproducedFigures& f) -> std::optional<double> { return f.within_m.count; }},
-    Figure{"mean_position_within_cm", "mean position error of these [cm]", "-", 1,
-           [](const ReproducedFigures& f) {
-             return f.within_m.count > 0 ? std::optional(100.0 * f.within_m.mean()) : std::nullopt;
-           }},
-    Figure{"wrong_matches_percent", "landmarks that are matched wrongly [%]", "none", 1,
-           [](const ReproducedFigures& f) {
-             return f.wrong_matches ? std::optional(100.0 * *f.wrong_matches) : std::nullopt;
-           }},
-    Figure{"mean_conflict", "mean conflict of the five criteria", "0.13", 3,
-           [](const ReproducedFigures& f) -> std::optional<double> { return f.mean_conflict; }},
-    Figure{"until_lost", "acquisitions from the last sighting to the loss", "5", 1,
-           [](const ReproducedFigures& f) {
-             return f.until_lost.count > 0 ? std::optional(f.until_lost.mean()) : std::nullopt;
-           }},
-    Figure{"walls_between", "tracks that were a wall in between", "1", 1,
-           [](const ReproducedFigures& f) -> std::optional<double> { return f.walls_between; }},
-    Figure{"mean_belief_yes", "mean m_l(YES)", "-", 3,
-           [](const ReproducedFigures& f) -> std::optional<double> { return f.mean_belief_yes; }},
-    Figure{"belief_follows_tracks", "m_l(YES) is larger with more tracks", "yes", 2,
-           [](const ReproducedFigures& f) { return f.belief_follows_tracks; }}};
+    PrintedFigure{"within_45_cm", "acquisitions within 45 cm", "-", 1,
+                  [](const ReproducedFigures& f) -> std::optional<double> { return f.within_m.count; }},
+    PrintedFigure{"mean_position_within_cm", "mean position error of these [cm]", "-", 1,
+                  [](const ReproducedFigures& f) {
+                    return f.within_m.count > 0 ? std::optional(100.0 * f.within_m.mean()) : std::nullopt;
+                  }},
+    PrintedFigure{"wrong_matches_percent", "landmarks that are matched wrongly [%]", "none", 1,
+                  [](const ReproducedFigures& f) {
+                    return f.wrong_matches ? std::optional(100.0 * *f.wrong_matches) : std::nullopt;
+                  }},
+    PrintedFigure{"mean_conflict", "mean conflict of the five criteria", "0.13", 3,
+                  [](const ReproducedFigures& f) -> std::optional<double> { return f.mean_conflict; }},
+    PrintedFigure{"until_lost", "acquisitions from the last sighting to the loss", "5", 1,
+                  [](const ReproducedFigures& f) {
+                    return f.until_lost.count > 0 ? std::optional(f.until_lost.mean()) : std::nullopt;
+                  }},
+    PrintedFigure{"walls_between", "tracks that were a wall in between", "1", 1,
+                  [](const ReproducedFigures& f) -> std::optional<double> { return f.walls_between; }},
+    PrintedFigure{"mean_belief_yes", "mean m_l(YES)", "-", 3,
+                  [](const ReproducedFigures& f) -> std::optional<double> { return f.mean_belief_yes; }},
+    PrintedFigure{"belief_follows_tracks", "m_l(YES) is larger with more tracks", "yes", 2,
+                  [](const ReproducedFigures& f) { return f.belief_follows_tracks; }}};
 
 /// A figure over the seeds that have one.
-Spread over_seeds(const std::vector<ClerentinRun>& runs, const Figure& figure) {
+Spread over_seeds(const std::vector<ClerentinRun>& runs, const PrintedFigure& figure) {
   Spread spread;
   for (const ClerentinRun& run : runs)
     if (const auto value = figure.of(run.figures)) spread.add(*value);
@@ -251,7 +251,7 @@ ordered_json acquisitions_json(const ClerentinExperiment& experiment, const std:
 
 ordered_json method_json(const ClerentinExperiment& experiment, const std::vector<ClerentinRun>& runs) {
   ordered_json figures;
-  for (const Figure& figure : kFigures) figures[figure.key] = json_of(over_seeds(runs, figure));
+  for (const PrintedFigure& figure : kFigures) figures[figure.key] = json_of(over_seeds(runs, figure));
   return {{"figures", figures},
           {"table_1", table_1_json(runs)},
           {"figure_21", json_of(life_of_an_edge(experiment.params, runs))},
@@ -271,7 +271,7 @@ std::string to_text(const ClerentinExperiment& experiment) {
       experiment.paper.front().figures.acquisitions, params.ways.size() == 1 ? "" : "s", ways, params.seeds,
       params.seeds == 1 ? "" : "s", params.seed);
   text += fmt::format(kLine, "", "the paper", "--method paper", "default");
-  for (const Figure& figure : kFigures)
+  for (const PrintedFigure& figure : kFigures)
     text += fmt::format(kLine, figure.words, figure.paper, words(over_seeds(experiment.paper, figure), figure.decimals),
                         words(over_seeds(experiment.standard, figure), figure.decimals));
   text += "\n" + table_1_text(experiment);
@@ -289,7 +289,7 @@ std::string to_text(const ClerentinExperiment& experiment) {
 
 nlohmann::ordered_json to_json(const ClerentinExperiment& experiment) {
   ordered_json printed;
-  for (const Figure& figure : kFigures) printed[figure.key] = figure.paper;
+  for (const PrintedFigure& figure : kFigures) printed[figure.key] = figure.paper;
   return {{"paper", "clerentin"},
           {"ways", experiment.params.ways},
           {"seed", experiment.params.seed},

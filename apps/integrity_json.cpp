@@ -6,14 +6,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/output.hpp"
+
 namespace credo::apps {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json number_or_null(const std::optional<double>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
 
 ordered_json counted(const evaluation::Proportion& p) {
   const evaluation::Bounds b = p.interval();

@@ -14,7 +14,7 @@ namespace credo::evaluation {
 namespace {
 
 constexpr double kConfidence = 0.95;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 /// Draws as many clusters as there are, with replacement.
 void draw(sim::Random& random, std::vector<int>& weights) {
@@ -99,7 +99,7 @@ std::optional<Estimate> bootstrap(std::size_t clusters, const std::function<std:
     if (const auto other = statistic(weights)) resampled.push_back(*other);
   }
   std::sort(resampled.begin(), resampled.end());
-  if (clusters < 2 || resampled.empty()) return Estimate{*value, kUnknown, kUnknown};
+  if (clusters < 2 || resampled.empty()) return Estimate{*value, kNotKnown, kNotKnown};
   const auto tail = static_cast<std::size_t>(0.5 * (1.0 - kConfidence) * static_cast<double>(resampled.size()));
   return Estimate{*value, resampled[tail], resampled[resampled.size() - 1 - tail]};
 }
