@@ -50,15 +50,15 @@ void write_pictures(const std::string& target, const Draw& draw) {
   folder.commit();
 }
 
-std::vector<Figure> figures_of(const evaluation::Integrity& integrity) {
-  std::vector<Figure> result;
+std::vector<GatedValue> figures_of(const evaluation::Integrity& integrity) {
+  std::vector<GatedValue> result;
   for (const auto& [name, value] : evaluation::figures(integrity)) result.push_back({name, value});
   return result;
 }
 
-std::vector<std::string> names_of(const std::vector<Figure>& figures) {
+std::vector<std::string> names_of(const std::vector<GatedValue>& figures) {
   std::vector<std::string> names;
-  for (const Figure& figure : figures) names.push_back(figure.name);
+  for (const GatedValue& figure : figures) names.push_back(figure.name);
   return names;
 }
 

@@ -50,7 +50,7 @@ struct RpeOptions : PairOptions {
   evaluation::RelativeErrorParams params;
 };
 
-std::vector<Figure> figures(const evaluation::Statistics& s) {
+std::vector<GatedValue> figures(const evaluation::Statistics& s) {
   return {{"max", s.max},   {"mean", s.mean}, {"median", s.median}, {"min", s.min},
           {"rmse", s.rmse}, {"sse", s.sse},   {"std", s.std}};
 }
@@ -103,7 +103,7 @@ void report(const PairOptions& o, const evaluation::AssociatedPair& pair, const 
   }
   if (o.format.json()) {
     ordered_json statistics;
-    for (const Figure& figure : figures(errors.statistics)) statistics[figure.name] = *figure.value;
+    for (const GatedValue& figure : figures(errors.statistics)) statistics[figure.name] = *figure.value;
     print(ordered_json{{"title", errors.title + "\n" + evaluation::describe(o.alignment)},
                        {"reference", o.reference},
                        {"result", o.result},

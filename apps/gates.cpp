@@ -42,13 +42,13 @@ CLI::Validator a_gate(const std::vector<std::string>& names) {
 
 template <typename Passes>
 void require_passed(const std::string& option, const std::vector<std::string>& gates,
-                    const std::vector<Figure>& figures, const Passes& passes) {
+                    const std::vector<GatedValue>& figures, const Passes& passes) {
   std::vector<std::string> names;
-  for (const Figure& figure : figures) names.push_back(figure.name);
+  for (const GatedValue& figure : figures) names.push_back(figure.name);
   for (const std::string& text : gates) {
     const Gate gate = parse_gate(text, names).value();
-    const Figure& figure =
-        *std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == gate.name; });
+    const GatedValue& figure =
+        *std::find_if(figures.begin(), figures.end(), [&](const GatedValue& f) { return f.name == gate.name; });
     if (figure.value && passes(*figure.value, gate.limit)) continue;
     throw std::runtime_error(fmt::format("{} {}: {} is {}", option, text, gate.name,
                                          figure.value ? fmt::format("{:.6f}", *figure.value) : "not known"));
@@ -71,7 +71,7 @@ void add_fail_below(CLI::App& command, Gates& gates, const std::vector<std::stri
       ->check(a_gate(names));
 }
 
-void require_passed(const Gates& gates, const std::vector<Figure>& figures) {
+void require_passed(const Gates& gates, const std::vector<GatedValue>& figures) {
   require_passed("--fail_above", gates.above, figures, [](double value, double limit) { return value <= limit; });
   require_passed("--fail_below", gates.below, figures, [](double value, double limit) { return value >= limit; });
 }

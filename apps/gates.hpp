@@ -11,7 +11,7 @@
 namespace credo::apps {
 
 /// A number by the name under which --fail_above knows it; nothing where there is nothing to measure.
-struct Figure {
+struct GatedValue {
   std::string name;
   std::optional<double> value;
 };
@@ -27,6 +27,6 @@ void add_fail_above(CLI::App& command, Gates& gates, const std::vector<std::stri
 void add_fail_below(CLI::App& command, Gates& gates, const std::vector<std::string>& names, const std::string& example);
 
 /// \throws std::runtime_error naming the first figure that is beyond its limit or has no value
-void require_passed(const Gates& gates, const std::vector<Figure>& figures);
+void require_passed(const Gates& gates, const std::vector<GatedValue>& figures);
 
 }  // namespace credo::apps

@@ -9,6 +9,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/output.hpp"
+
 namespace credo::apps {
 namespace {
 

@@ -83,11 +83,8 @@ void add_run(Integrity& result, const EvaluatedRun& run, const ScoreParams& para
   result.false_alarms.hours += alarms.hours;
 }
 
-Proportion answered_within(const std::vector<Kidnap>& kidnaps, std::optional<Response> Kidnap::*response, int within) {
-  Proportion result;
-  for (const Kidnap& kidnap : kidnaps)
-    result.add((kidnap.*response).has_value() && (kidnap.*response)->acquisitions <= within);
-  return result;
+bool came_within(const std::optional<Response>& response, int acquisitions) {
+  return response && response->acquisitions <= acquisitions;
 }
 
 std::optional<double> share_of(const std::optional<Proportion>& proportion) {
@@ -122,8 +119,17 @@ std::optional<double> Integrity::false_alarms_per_hour() const {
   return false_alarms.count / false_alarms.hours;
 }
 
-Proportion Integrity::alerted(int within) const { return answered_within(kidnaps, &Kidnap::alert, within); }
-Proportion Integrity::recovered(int within) const { return answered_within(kidnaps, &Kidnap::recovery, within); }
+Proportion Integrity::noticed(int within) const {
+  Proportion result;
+  for (const Kidnap& k : kidnaps) result.add(came_within(k.alert, within) || came_within(k.recovery, within));
+  return result;
+}
+
+Proportion Integrity::recovered(int within) const {
+  Proportion result;
+  for (const Kidnap& k : kidnaps) result.add(came_within(k.recovery, within));
+  return result;
+}
 
 Integrity integrity(std::span<const EvaluatedRun> runs, const ScoreParams& params) {
   Integrity result{.runs = static_cast<int>(runs.size()), .available = Proportion{}, .misleading = Proportion{}};
@@ -167,7 +173,7 @@ std::vector<NamedFigure> figures(const Integrity& i, const KidnapParams& kidnap)
           {"average_precision", belief.average_precision},
           {"missed_episodes", i.missed_episodes().share()},
           {"false_alarms_per_hour", i.false_alarms_per_hour()},
-          {"kidnap_alerted", i.alerted(kidnap.alert_within).share()},
+          {"kidnap_noticed", i.noticed(kidnap.noticed_within).share()},
           {"kidnap_recovered", i.recovered(kidnap.recovered_within).share()},
           {"calibration_error", i.reliability.calibration_error},
           {"brier", i.reliability.brier},

@@ -48,7 +48,7 @@ struct ProtectionDiagram {
 
 /// What kidnapped robots are asked for. Of all kidnaps: whether a place is decidable is not looked at.
 struct KidnapParams {
-  int alert_within = 3;  ///< acquisitions
+  int noticed_within = 3;  ///< acquisitions
   int recovered_within = 10;
 };
 
@@ -74,7 +74,8 @@ struct Integrity {
   [[nodiscard]] Proportion missed_episodes() const;
   /// Nothing where no time has passed.
   [[nodiscard]] std::optional<double> false_alarms_per_hour() const;
-  [[nodiscard]] Proportion alerted(int within_acquisitions) const;    ///< of the kidnaps
+  /// Of the kidnaps: those with an alert, or that are recovered without one, by then.
+  [[nodiscard]] Proportion noticed(int within_acquisitions) const;
   [[nodiscard]] Proportion recovered(int within_acquisitions) const;  ///< of the kidnaps
 };
 

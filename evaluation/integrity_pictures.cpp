@@ -18,7 +18,7 @@ using results::Color;
 using results::Plot;
 namespace colors = results::colors;
 
-constexpr double kPanelWidth = 560.0, kPanelHeight = 480.0;
+constexpr double kPanelWidth = 600.0, kPanelHeight = 480.0;
 
 /// Two charts beside each other, and a line of text below.
 cv::Mat side_by_side(const Plot& left, const Plot& right, const std::string& note) {
@@ -31,8 +31,12 @@ cv::Mat side_by_side(const Plot& left, const Plot& right, const std::string& not
 
 Plot unit_square(const char* title, const char* x_label, const char* y_label) {
   Plot plot(title, x_label, y_label);
-  plot.x_limits(0.0, 1.0).y_limits(0.0, 1.0);
+  plot.x_limits(-0.02, 1.02).y_limits(-0.02, 1.02);
   return plot;
+}
+
+double largest_of(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
 std::string with_value(const std::string& name, const std::optional<double>& value) {
@@ -95,9 +99,10 @@ void add_stairs(Plot& plot, const std::vector<Event>& events, std::optional<Resp
 
 cv::Mat detection_picture(const Integrity& integrity) {
   constexpr std::array kColors{colors::kBlue, colors::kOrange, colors::kPurple, colors::kGreen};
-  Plot roc = unit_square("ROC; area", "share of the others taken for lost", "share of the lost caught");
-  Plot precision =
-      unit_square("Precision; mean", "share of the lost caught (recall)", "share of the caught that is lost");
+  Plot roc =
+      unit_square("ROC, and the area under it", "share of the others taken for lost", "share of the lost caught");
+  Plot precision = unit_square("Precision, and its mean over recall", "share of the lost caught (recall)",
+                               "share of the caught that is lost");
   roc.line({0.0, 1.0}, {0.0, 1.0}, colors::kFaint);
   if (const auto base = integrity.lost.share()) precision.level(*base, colors::kMuted);
   for (std::size_t i = 0; i < integrity.detectors.size(); ++i) {
@@ -145,7 +150,7 @@ cv::Mat calibration_picture(const Integrity& integrity) {
     interval.whiskers({x}, {frequency.lower}, {frequency.upper}, color)
         .points({x}, {*bins[i].came_true.share()}, color, "", 3.5);
   }
-  interval.x_limits(0.0, static_cast<double>(bins.size()) + 1.0).y_limits(0.0, 1.0);
+  interval.x_limits(0.0, static_cast<double>(bins.size()) + 1.0).y_limits(-0.02, 1.02);
   return side_by_side(reliability, interval,
                       fmt::format("ECE {:.3f}, Brier {:.3f}; whiskers: 95 % of the frequency (Clopper-Pearson); green: "
                                   "it meets [Bel, Pl], red: it does not",
@@ -162,10 +167,12 @@ cv::Mat risk_picture(const Integrity& integrity) {
   }
   Plot risk("Lost among the accepted", "share accepted, best believed first", "lost [%]");
   Plot error("Mean error of the accepted", "share accepted, best believed first", "[cm], [0.1 deg]");
-  risk.line(coverage, lost, colors::kRed, "", 2.0).x_limits(0.0, 1.0);
+  const auto show_from_zero = [](Plot& plot, double largest) { plot.x_limits(0.0, 1.0).y_limits(0.0, 1.05 * largest); };
+  show_from_zero(risk, std::max(1.0, largest_of(lost)));
+  show_from_zero(error, std::max({1.0, largest_of(position), largest_of(heading)}));
+  risk.line(coverage, lost, colors::kRed, "", 2.0);
   error.line(coverage, position, colors::kBlue, "position [cm]", 2.0)
-      .line(coverage, heading, colors::kOrange, "heading [0.1 deg]", 2.0)
-      .x_limits(0.0, 1.0);
+      .line(coverage, heading, colors::kOrange, "heading [0.1 deg]", 2.0);
   return side_by_side(risk, error, "accepted by BetP(YES); what is equally believed is accepted together");
 }
 

@@ -83,8 +83,8 @@ std::string timing_text(const Integrity& i, const KidnapParams& kidnap) {
       table_row("false alarms per hour", number(i.false_alarms_per_hour()),
                 fmt::format("stretches of false alerts: {} in {:.2f} h", i.false_alarms.count, i.false_alarms.hours));
   if (i.kidnaps.empty()) return text;
-  text += share_row("kidnap noticed", i.alerted(kidnap.alert_within),
-                    fmt::format("an alert within {} acquisitions", kidnap.alert_within));
+  text += share_row("kidnap noticed", i.noticed(kidnap.noticed_within),
+                    fmt::format("an alert, or localized and not lost, within {} acquisitions", kidnap.noticed_within));
   text += table_row("time to the alert", "", timing_text(i.kidnaps, &Kidnap::alert));
   text += share_row("kidnap recovered", i.recovered(kidnap.recovered_within),
                     fmt::format("localized and not lost within {} acquisitions", kidnap.recovered_within));

@@ -59,9 +59,10 @@ void add_unexplained(const Primitive& primitive, PlanAgreement agreement, const 
 }
 
 /// Whether a place may be hidden by something that the plan does not have: the next beams on either side end nearer, or
-/// none passes near enough to tell.
+/// none passes near enough to tell. Without a scan nothing is known to hide anything.
 /// \param place  in the base frame
 bool hidden_by_clutter(const Scene& scene, const Vector2d& place, const LocalizationEvidenceParams& params) {
+  if (scene.points.empty()) return false;
   const double distance = place.norm();
   const Vector2d direction = place / std::max(distance, 1e-9);
   double left = params.beside_rad, right = params.beside_rad;  // how far beside the next beams pass

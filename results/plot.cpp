@@ -12,6 +12,10 @@ namespace credo::results {
 
 using Point = Canvas::Point;
 
+namespace {
+constexpr double kTitleHeight = 10.0, kLegendHeight = 8.0;  // of a capital letter
+}  // namespace
+
 std::vector<double> ticks(double low, double high, int wanted) {
   if (!(high > low) || !std::isfinite(high - low)) return {low};
   const double rough = (high - low) / std::max(1, wanted);
@@ -72,6 +76,7 @@ std::string size_text(double longer_m, double shorter_m) {
 struct Plot::Axes {
   double x0 = 0, x1 = 1, y0 = 0, y1 = 1;            // data
   double left = 0, right = 1, top = 0, bottom = 1;  // canvas
+  double title = 0;                                 // baseline
   [[nodiscard]] Point at(double x, double y) const {
     return {left + (x - x0) / (x1 - x0) * (right - left), bottom - (y - y0) / (y1 - y0) * (bottom - top)};
   }
@@ -167,7 +172,9 @@ Plot::Axes Plot::fit(Point corner, Point opposite) const {
   if (!(axes.y1 > axes.y0)) axes.y1 = axes.y0 + 1.0;
   axes.left = corner.x() + 66.0;
   axes.right = opposite.x() - 16.0;
+  axes.title = corner.y() + 25.0;
   axes.top = corner.y() + (title_.empty() ? 14.0 : 34.0);
+  if (text_width(title_, kTitleHeight) + legend_width() > axes.right - axes.left) axes.top += 18.0;
   axes.bottom = opposite.y() - (x_label_.empty() ? 24.0 : 42.0);
   return axes;
 }
@@ -219,16 +226,20 @@ void Plot::draw_strip(Canvas& canvas, const Axes& axes) const {
   }
 }
 
+double Plot::legend_width() const {
+  double width = 0.0;
+  for (const Series& s : series_) width += s.label.empty() ? 0.0 : text_width(s.label, kLegendHeight) + 32.0;
+  return width;
+}
+
 void Plot::draw_legend(Canvas& canvas, const Axes& axes) const {
   std::vector<LegendEntry> entries;
-  double width = 0.0;
   for (const Series& s : series_) {
     if (s.label.empty()) continue;
     entries.push_back(
         {s.kind == Kind::kBand ? mixed(colors::kPaper, s.color, std::max(0.3, s.opacity)) : s.color, s.label});
-    width += text_width(s.label, 8.0) + 32.0;
   }
-  legend(canvas, {axes.right - width + 12.0, axes.top - 9.0}, entries);
+  legend(canvas, {axes.right - legend_width() + 12.0, axes.top - 9.0}, entries, kLegendHeight);
 }
 
 void Plot::draw(Canvas& canvas, Point corner, Point opposite) const {
@@ -249,7 +260,7 @@ void Plot::draw(Canvas& canvas, Point corner, Point opposite) const {
   for (const double y : ys) {
     canvas.text({axes.left - 6.0, axes.at(0, y).y() + 4.0}, tick_label(y, y_step), colors::kInk, 8.0, Anchor::kRight);
   }
-  canvas.text({axes.left, axes.top - 9.0}, title_, colors::kInk, 10.0, Anchor::kLeft, 1.25);
+  canvas.text({axes.left, axes.title}, title_, colors::kInk, kTitleHeight, Anchor::kLeft, 1.25);
   canvas.text({0.5 * (axes.left + axes.right), axes.bottom + 33.0}, x_label_, colors::kInk, 8.5, Anchor::kCentre);
   canvas.text_upwards({corner.x() + 13.0, 0.5 * (axes.top + axes.bottom)}, y_label_, colors::kInk, 8.5);
   draw_legend(canvas, axes);

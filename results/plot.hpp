@@ -21,7 +21,8 @@ namespace credo::results {
 /// Two lengths in the unit of the longer one: "1.3 x 1.2 cm".
 [[nodiscard]] std::string size_text(double longer_m, double shorter_m);
 
-/// A chart: series over one axis, with frame, grid, ticks, labels and legend. Values that are not finite leave a gap.
+/// A chart: series over one axis, with frame, grid, ticks, labels and legend (beside the title, or below it where it is
+/// too long). Values that are not finite leave a gap.
 class Plot {
  public:
   Plot(std::string title, std::string x_label, std::string y_label)
@@ -60,6 +61,7 @@ class Plot {
 
   void draw_series(Canvas& canvas, const Axes& axes, const Series& series) const;
   void draw_legend(Canvas& canvas, const Axes& axes) const;
+  [[nodiscard]] double legend_width() const;
   void draw_strip(Canvas& canvas, const Axes& axes) const;
   [[nodiscard]] Axes fit(Canvas::Point corner, Canvas::Point opposite) const;
 

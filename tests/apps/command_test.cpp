@@ -24,10 +24,26 @@ using testing::Not;
 using testing::StartsWith;
 
 TEST_F(Command, HelpStartsWithExamples) {
-  for (const char* name :
-       {"", "demo", "simulate", "run", "map", "evaluate", "evaluate ape", "evaluate rpe", "evaluate traj",
-        "evaluate score", "evaluate nees", "evaluate map", "compare", "compare localizers", "compare association",
-        "campaign", "info", "reproduce", "reproduce clerentin"}) {
+  for (const char* name : {"",
+                           "demo",
+                           "simulate",
+                           "run",
+                           "map",
+                           "evaluate",
+                           "evaluate ape",
+                           "evaluate rpe",
+                           "evaluate traj",
+                           "evaluate score",
+                           "evaluate integrity",
+                           "evaluate nees",
+                           "evaluate map",
+                           "compare",
+                           "compare localizers",
+                           "compare association",
+                           "campaign",
+                           "info",
+                           "reproduce",
+                           "reproduce clerentin"}) {
     const Answer answer = credo(std::string(name) + " --help");
     EXPECT_EQ(answer.status, 0) << name;
     EXPECT_THAT(answer.out, StartsWith("Examples:\n  credo ")) << name;
@@ -38,9 +54,10 @@ TEST_F(Command, HelpStartsWithExamples) {
 TEST_F(Command, VersionIsSaid) { EXPECT_THAT(credo("--version").out, StartsWith("credo ")); }
 
 TEST_F(Command, WrongUsageEndsWithStatusTwo) {
-  for (const char* arguments : {"", "fly", "run", "run a --method magic", "evaluate", "evaluate ape one",
-                                "run a --resolution -1", "evaluate nees one", "info x --format xml", "reproduce",
-                                "reproduce clerentin --seeds 0", "reproduce clerentin --pictures p"}) {
+  for (const char* arguments :
+       {"", "fly", "run", "run a --method magic", "evaluate", "evaluate ape one", "run a --resolution -1",
+        "evaluate nees one", "evaluate nees", "evaluate integrity one", "evaluate integrity a b --fail_above magic=1",
+        "info x --format xml", "reproduce", "reproduce clerentin --seeds 0", "reproduce clerentin --pictures p"}) {
     const Answer answer = credo(arguments);
     EXPECT_EQ(answer.status, 2) << arguments;
     EXPECT_THAT(answer.error, StartsWith("credo: error: ")) << arguments;
@@ -254,6 +271,56 @@ TEST_F(Command, TheWholeWayOfTheData) {
   EXPECT_EQ(json::parse(credo("map data --out true_map --format json").out)["poses"], "ground truth");
   EXPECT_GT(json::parse(credo("evaluate map data true_map --format json").out)["accuracy"].get<double>(), 0.8);
   EXPECT_EQ(credo("map data --out own_map --poses first/trajectory.tum").status, 0);
+}
+
+TEST_F(Command, IntegrityAndConsistencyPoolRuns) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out lists/data").status, 0);
+  ASSERT_EQ(credo("run lists/data --out lists/run").status, 0);
+  write("lists/runs.txt", "# twice the same\ndata run\n\ndata\trun  # again\n");
+  const json one = json::parse(credo("evaluate integrity lists/data lists/run --format json").out);
+  const json two = json::parse(credo("evaluate integrity --runs lists/runs.txt --format json").out);
+  EXPECT_EQ(two["runs"], 2);
+  EXPECT_EQ(two["placed"]["count"], 2 * one["placed"]["count"].get<int>());
+  EXPECT_NEAR(two["figures"]["brier"].get<double>(), one["figures"]["brier"].get<double>(), 1e-12);
+
+  const Answer text = credo("evaluate integrity --runs lists/runs.txt --pictures pictures --fail_above lost=0");
+  EXPECT_EQ(text.status, 0) << text.error;
+  EXPECT_THAT(text.out, AllOf(StartsWith("Integrity of 2 runs"), HasSubstr("meets [Bel, Pl]")));
+  for (const char* name : {"detection", "calibration", "risk"})
+    EXPECT_TRUE(fs::exists(folder_ / "pictures" / (std::string(name) + ".png"))) << name;
+  EXPECT_THAT(credo("evaluate integrity --runs lists/runs.txt --pictures pictures").error,
+              HasSubstr("pictures: is there already"));
+
+  ASSERT_EQ(credo("evaluate nees lists/data lists/run --pictures nees").status, 0);
+  for (const char* name : {"anees", "errors"})
+    EXPECT_TRUE(fs::exists(folder_ / "nees" / (std::string(name) + ".png"))) << name;
+}
+
+TEST_F(Command, GatesOfIntegrityFailBelowAndWhereNothingIsKnown) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  ASSERT_EQ(credo("run data --out run").status, 0);
+  EXPECT_EQ(credo("evaluate integrity data run --fail_below lost=0").status, 0);
+  const Answer below = credo("evaluate integrity data run --fail_below lost=0.5");
+  EXPECT_EQ(below.status, 1);
+  EXPECT_THAT(below.error, HasSubstr("--fail_below lost=0.5: lost is 0.000000"));
+  const Answer unknown = credo("evaluate integrity data run --fail_below auroc=0.9");
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_THAT(unknown.error, HasSubstr("auroc is not known"));
+  EXPECT_EQ(credo("evaluate nees data run --fail_above mean=0").status, 1);
+}
+
+TEST_F(Command, AListOfRunsThatCannotBeReadIsNamedWithTheLine) {
+  write("half.txt", "# runs\ndata run\ndata\n");
+  write("empty.txt", "# none\n");
+  for (const char* command : {"integrity", "nees"}) {
+    const std::string evaluate = std::string("evaluate ") + command + " --runs ";
+    EXPECT_THAT(credo(evaluate + "half.txt").error, HasSubstr("half.txt:3: expected a reference and a result"));
+    EXPECT_THAT(credo(evaluate + "empty.txt").error, HasSubstr("empty.txt: lists no run"));
+    EXPECT_THAT(credo(evaluate + "missing.txt").error, HasSubstr("missing.txt: cannot be read"));
+    EXPECT_EQ(credo(evaluate + "half.txt").status, 1);
+  }
 }
 
 TEST_F(Command, ResultsAreReplacedOnlyByForce) {

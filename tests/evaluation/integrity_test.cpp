@@ -86,13 +86,19 @@ TEST(Integrity, KidnapsCountWhatIsAnsweredInTime) {
   EvaluatedRun r = run({sample(0.0, 0.2), sample(3.0, 0.2), sample(3.0, 0.2, Status::kLost), sample(0.0, 0.2)});
   r.kidnaps = {500'000'000};
   const Integrity i = integrity(std::vector{r});
-  EXPECT_EQ(i.alerted(1).count, 0U);
-  EXPECT_EQ(i.alerted(2).count, 1U);
+  EXPECT_EQ(i.noticed(1).count, 0U);
+  EXPECT_EQ(i.noticed(2).count, 1U);
   EXPECT_EQ(i.recovered(2).count, 0U);
   EXPECT_EQ(i.recovered(3).count, 1U);
   EXPECT_EQ(i.recovered(3).of, 1U);
   EXPECT_EQ(i.unnoticed.count, 1U);
   EXPECT_EQ(i.missed_episodes().count, 0U);
+}
+
+TEST(Integrity, AKidnapThatIsRecoveredAtOnceNeedsNoAlert) {
+  EvaluatedRun r = run({sample(0.0, 0.2), sample(0.0, 0.2), sample(0.0, 0.2)});
+  r.kidnaps = {500'000'000};
+  EXPECT_EQ(integrity(std::vector{r}).noticed(1).count, 1U);
 }
 
 TEST(Integrity, FiguresHaveNoValueWhereThereIsNothingToMeasure) {
