@@ -14,6 +14,9 @@ void add_simulate(CLI::App& app);
 void add_run(CLI::App& app);
 void add_map(CLI::App& app);
 void add_evaluate(CLI::App& app);
+void add_campaign(CLI::App& app);
+void add_compare(CLI::App& app);
 void add_info(CLI::App& app);
+void add_reproduce(CLI::App& app);
 
 }  // namespace credo::apps

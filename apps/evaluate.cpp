@@ -45,10 +45,12 @@ void add_evaluate(CLI::App& app) {
       "  credo evaluate score datasets/office results/office            position, heading, belief: one table\n"
       "  credo evaluate ape datasets/office results/office              absolute pose error\n"
       "  credo evaluate rpe groundtruth.tum trajectory.tum -d 1 -u m    relative pose error over metres\n"
+      "  credo evaluate integrity --runs runs.txt                       does it know when it is lost? many runs\n"
       "  credo evaluate nees datasets/a results/a datasets/b results/b  consistency over independent runs\n"
       "  credo evaluate map datasets/office results/office              map accuracy");
   evaluate->require_subcommand(1);
   add_evaluate_localization(*evaluate);
+  add_evaluate_integrity(*evaluate);
   add_evaluate_trajectories(*evaluate);
   add_evaluate_map(*evaluate);
 }

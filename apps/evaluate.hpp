@@ -16,7 +16,8 @@
 namespace credo::apps {
 
 void add_evaluate_trajectories(CLI::App& evaluate);  ///< ape, rpe, traj
-void add_evaluate_localization(CLI::App& evaluate);  ///< score, nees
+void add_evaluate_localization(CLI::App& evaluate);  ///< score
+void add_evaluate_integrity(CLI::App& evaluate);     ///< integrity, nees
 void add_evaluate_map(CLI::App& evaluate);           ///< map
 
 /// The localization.csv of a results folder, or the file itself.

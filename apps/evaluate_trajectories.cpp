@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "apps/evaluate.hpp"
+#include "apps/gates.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "apps/terminal.hpp"
@@ -37,9 +38,10 @@ const std::map<std::string, evaluation::DeltaUnit> kUnits{{"f", evaluation::Delt
 constexpr double kLeastDelta = 1e-6;  // of whatever unit
 
 struct PairOptions {
-  std::string reference, result, relation = "trans_part", fail_above;
+  std::string reference, result, relation = "trans_part";
   evaluation::AssociationParams association;
   evaluation::AlignmentParams alignment;
+  Gates gates;
   OutputFormat format;
 };
 
@@ -48,43 +50,9 @@ struct RpeOptions : PairOptions {
   evaluation::RelativeErrorParams params;
 };
 
-std::map<std::string, double> by_name(const evaluation::Statistics& s) {
+std::vector<GatedValue> figures(const evaluation::Statistics& s) {
   return {{"max", s.max},   {"mean", s.mean}, {"median", s.median}, {"min", s.min},
           {"rmse", s.rmse}, {"sse", s.sse},   {"std", s.std}};
-}
-
-/// What --fail_above says.
-struct Gate {
-  std::string statistic;
-  double limit = 0.0;
-};
-
-std::optional<Gate> parse_gate(const std::string& text) {
-  const std::size_t cut = text.find('=');
-  if (cut == std::string::npos) return std::nullopt;
-  Gate gate{.statistic = text.substr(0, cut)};
-  if (!by_name({}).contains(gate.statistic) || !parse(text.substr(cut + 1), gate.limit) || !std::isfinite(gate.limit))
-    return std::nullopt;
-  return gate;
-}
-
-CLI::Validator a_gate() {
-  return CLI::Validator(
-      [](const std::string& text) -> std::string {
-        if (parse_gate(text)) return "";
-        return "expected STATISTIC=VALUE with one of max, mean, median, min, rmse, sse, std and a finite number, found "
-               "'" +
-               text + "'";
-      },
-      "");
-}
-
-void apply_gate(const std::string& text, const evaluation::Statistics& statistics) {
-  const std::optional<Gate> gate = parse_gate(text);
-  if (!gate) return;
-  const double found = by_name(statistics).at(gate->statistic);
-  if (!(found <= gate->limit))
-    throw std::runtime_error("--fail_above " + text + ": " + gate->statistic + " is " + std::to_string(found));
 }
 
 void add_pair_options(CLI::App& command, PairOptions& o) {
@@ -108,8 +76,7 @@ void add_pair_options(CLI::App& command, PairOptions& o) {
       ->check(number_in(-evaluation::AssociationParams::kLargest_s, evaluation::AssociationParams::kLargest_s))
       ->capture_default_str();
   command.add_flag("--interpolate", o.association.interpolate, "interpolate the reference to the times of the result");
-  command.add_option("--fail_above", o.fail_above, "STATISTIC=VALUE: exit with an error if it is above, e.g. rmse=0.1")
-      ->check(a_gate());
+  add_fail_above(command, o.gates, {"max", "mean", "median", "min", "rmse", "sse", "std"}, "rmse=0.1");
   add_format_option(command, o.format);
 }
 
@@ -136,7 +103,7 @@ void report(const PairOptions& o, const evaluation::AssociatedPair& pair, const 
   }
   if (o.format.json()) {
     ordered_json statistics;
-    for (const auto& [name, value] : by_name(errors.statistics)) statistics[name] = value;
+    for (const GatedValue& figure : figures(errors.statistics)) statistics[figure.name] = *figure.value;
     print(ordered_json{{"title", errors.title + "\n" + evaluation::describe(o.alignment)},
                        {"reference", o.reference},
                        {"result", o.result},
@@ -148,7 +115,7 @@ void report(const PairOptions& o, const evaluation::AssociatedPair& pair, const 
   } else {
     std::printf("%s\n%s", matching_text(pair, o).c_str(), evaluation::to_text(errors, o.alignment).c_str());
   }
-  apply_gate(o.fail_above, errors.statistics);
+  require_passed(o.gates, figures(errors.statistics));
 }
 
 evaluation::AssociatedPair associated(const PairOptions& o) {

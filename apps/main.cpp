@@ -47,7 +47,10 @@ int main(int argc, char** argv) {
     credo::apps::add_run(app);
     credo::apps::add_map(app);
     credo::apps::add_evaluate(app);
+    credo::apps::add_campaign(app);
+    credo::apps::add_compare(app);
     credo::apps::add_info(app);
+    credo::apps::add_reproduce(app);
     app.parse(argc, argv);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
     credo::apps::say_error("standard output cannot be written: is the disk full?");

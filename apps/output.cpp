@@ -19,4 +19,8 @@ void print(const nlohmann::ordered_json& value) {
   std::printf("%s\n", value.dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
 }
 
+nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
+  return value && *value - *value == 0.0 ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
 }  // namespace credo::apps

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 namespace credo::apps {
@@ -20,5 +21,8 @@ void add_format_option(CLI::App& command, OutputFormat& format);
 
 /// To standard output, indented; numbers that are not finite become null, bytes that are no UTF-8 a replacement.
 void print(const nlohmann::ordered_json& value);
+
+/// A number, or null where there is none or it is not finite: JSON has no other.
+[[nodiscard]] nlohmann::ordered_json number_or_null(const std::optional<double>& value);
 
 }  // namespace credo::apps

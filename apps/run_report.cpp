@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/output.hpp"
 #include "results/calibration_file.hpp"
 
 namespace credo::apps {
@@ -74,20 +75,16 @@ std::string conflict_text(const results::ConflictStatistics& conflict) {
   return text;
 }
 
-ordered_json finite(double value) { return value - value == 0.0 ? ordered_json(value) : ordered_json(nullptr); }
-
-ordered_json optional(const std::optional<double>& value) { return value ? finite(*value) : ordered_json(nullptr); }
-
 }  // namespace
 
 std::optional<evaluation::LocalizationScore> score_of(const Outcome& outcome, const datasets::Dataset& dataset) {
   std::vector<results::LocalizationRow> rows;
-  bool truth = false;
+  bool comparable = false;
   for (const results::Moment& m : outcome.history) {
     rows.push_back({.localization = m.localization});
-    truth = truth || m.truth.has_value();
+    comparable = comparable || (m.truth && m.localization.status != Status::kInitializing);
   }
-  if (!truth) return {};
+  if (!comparable) return {};
   std::optional<std::vector<evaluation::Interval>> degraded;
   if (dataset.events_recorded) degraded = evaluation::degraded_intervals(dataset.events);
   return evaluation::score(rows, dataset.truth, degraded);
@@ -126,14 +123,15 @@ std::string to_text(const Outcome& outcome, const datasets::Dataset& dataset) {
 ordered_json to_json(const evaluation::LocalizationScore& s) {
   return {{"acquisitions", s.acquisitions},
           {"with_truth", s.with_truth},
-          {"mean_position_m", finite(s.mean_position_m)},
-          {"median_position_m", finite(s.median_position_m)},
-          {"rmse_position_m", finite(s.rmse_position_m)},
-          {"max_position_m", finite(s.max_position_m)},
-          {"mean_heading_rad", finite(s.mean_heading_rad)},
-          {"median_heading_rad", finite(s.median_heading_rad)},
-          {"rmse_heading_rad", finite(s.rmse_heading_rad)},
-          {"max_heading_rad", finite(s.max_heading_rad)},
+          {"placed", s.placed},
+          {"mean_position_m", number_or_null(s.mean_position_m)},
+          {"median_position_m", number_or_null(s.median_position_m)},
+          {"rmse_position_m", number_or_null(s.rmse_position_m)},
+          {"max_position_m", number_or_null(s.max_position_m)},
+          {"mean_heading_rad", number_or_null(s.mean_heading_rad)},
+          {"median_heading_rad", number_or_null(s.median_heading_rad)},
+          {"rmse_heading_rad", number_or_null(s.rmse_heading_rad)},
+          {"max_heading_rad", number_or_null(s.max_heading_rad)},
           {"success", s.success},
           {"localized", s.localized},
           {"lost", s.lost},
@@ -142,13 +140,13 @@ ordered_json to_json(const evaluation::LocalizationScore& s) {
           {"alert", s.alert},
           {"false_alert", s.false_alert},
           {"degradation_known", s.degradation_known},
-          {"available", optional(s.available)},
-          {"misleading", optional(s.misleading)},
-          {"nees_over_time", finite(s.anees)},
+          {"available", number_or_null(s.available)},
+          {"misleading", number_or_null(s.misleading)},
+          {"nees_over_time", number_or_null(s.anees)},
           {"inside_3_sigma", s.inside_3_sigma},
           {"lost_count", s.lost_count},
-          {"auroc", optional(s.auroc)},
-          {"calibration_error", optional(s.calibration_error)}};
+          {"auroc", number_or_null(s.auroc)},
+          {"calibration_error", number_or_null(s.calibration_error)}};
 }
 
 ordered_json to_json(const Outcome& outcome, const datasets::Dataset& dataset) {

@@ -12,9 +12,13 @@
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/option_checks.hpp"
+#include "apps/shipped.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/dataset_writer.hpp"
 #include "datasets/map_server.hpp"
+#include "evaluation/simulated_drive.hpp"
+#include "sim/degradation.hpp"
+#include "sim/random_world.hpp"
 #include "sim/simulation.hpp"
 
 namespace credo::apps {
@@ -25,43 +29,20 @@ namespace fs = std::filesystem;
 struct SimulateOptions {
   std::string world;
   std::string out;
+  std::string kind;
+  std::string degradation = "nominal";
   std::uint64_t seed = 1;
   bool force = false;
 };
 
-std::vector<fs::path> world_folders() {
-  std::error_code ignored;
-  const fs::path binary = fs::read_symlink("/proc/self/exe", ignored);
-  return {binary.parent_path() / ".." / "share" / "credo" / "worlds", fs::path(CREDO_WORLDS)};
-}
-
-/// A file, or the name of a world that comes with Credo.
-fs::path find_world(const std::string& name) {
-  if (fs::exists(name)) return name;
-  std::vector<std::string> known;
-  for (const fs::path& folder : world_folders()) {
-    if (fs::is_regular_file(folder / (name + ".yaml"))) return folder / (name + ".yaml");
-    if (!fs::is_directory(folder)) continue;
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".yaml") known.push_back(entry.path().stem().string());
+sim::World world_of(const SimulateOptions& options) {
+  if (options.world != kRandomWorld || fs::exists(options.world)) {
+    if (!options.kind.empty()) throw std::runtime_error("--kind is for the world 'random', not for " + options.world);
+    return sim::load_world(find_shipped(options.world, kWorlds));
   }
-  std::sort(known.begin(), known.end());
-  known.erase(std::unique(known.begin(), known.end()), known.end());
-  std::string message = name + ": no such world file; worlds that come with credo:";
-  for (const std::string& world : known) message += " " + world;
-  throw std::runtime_error(message);
-}
-
-datasets::DatasetHeader header_of(const sim::Simulation& simulation) {
-  const sim::World& world = simulation.world();
-  return {.name = world.name,
-          .description = world.description,
-          .license = "CC0-1.0",
-          .robot_radius_m = world.robot_radius_m,
-          .initial_pose = simulation.initial_pose(),
-          .acquisition_sensor = simulation.acquisition_sensor(),
-          .rig = simulation.rig(),
-          .floor_plan = simulation.floor_plan()};
+  sim::RandomWorldParams params;
+  if (!options.kind.empty()) params.kind = sim::building_kind(options.kind);
+  return sim::random_world(options.seed, params);
 }
 
 void write_truth_map(const sim::TruthMap& truth, const fs::path& yaml) {
@@ -109,7 +90,7 @@ sim::Sink sink_into(datasets::DatasetWriter& writer, Progress& progress) {
 void simulate(const sim::World& world, std::uint64_t seed, const fs::path& out, bool force) {
   const sim::Simulation simulation(world, seed);
   const Interruptible interruptible;
-  datasets::DatasetWriter writer(out, header_of(simulation), {.overwrite = force});
+  datasets::DatasetWriter writer(out, evaluation::header_of(simulation), {.overwrite = force});
   writer.record_events();
   Progress progress("simulating " + world.name);
   simulation.run(sink_into(writer, progress), static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
@@ -128,18 +109,29 @@ void add_simulate(CLI::App& app) {
   CLI::App* command = app.add_subcommand("simulate", "Plays a world into a dataset, with its ground truth.");
   command->footer(
       "  credo simulate office --out datasets/office              a world that comes with credo\n"
-      "  credo simulate my_world.yaml --out datasets/mine --seed 7");
+      "  credo simulate my_world.yaml --out datasets/mine --seed 7\n"
+      "  credo simulate random --kind l_shape --seed 7 --out datasets/l7   a building drawn from the seed\n"
+      "  credo simulate office --degraded worst --out datasets/worst      with a bad range finder, clutter and people");
   auto options = std::make_shared<SimulateOptions>();
-  command->add_option("WORLD", options->world, "a world file (YAML), or the name of a world that comes with credo")
+  command
+      ->add_option("WORLD", options->world,
+                   "a world file (YAML), the name of a world that comes with credo, or 'random'")
       ->check(a_path())
       ->required();
   command->add_option("-o,--out", options->out, "folder for the dataset")->check(a_path())->required();
   command->add_option("--seed", options->seed, "of all that is random; the same seed gives the same bytes")
       ->check(any_seed())
       ->capture_default_str();
+  std::vector<std::string> kinds;
+  for (const sim::BuildingKind kind : sim::building_kinds()) kinds.emplace_back(sim::name_of(kind));
+  command->add_option("--kind", options->kind, "of the building of 'random'")->check(CLI::IsMember(kinds));
+  command->add_option("--degraded", options->degradation, "what is made worse")
+      ->check(CLI::IsMember(sim::degradation_names()))
+      ->capture_default_str();
   command->add_flag("-f,--force", options->force, "replace a dataset that is already there");
   command->callback([options] {
-    simulate_into(sim::load_world(find_world(options->world)), options->seed, options->out, options->force);
+    simulate_into(sim::degraded(world_of(*options), options->degradation, options->seed), options->seed, options->out,
+                  options->force);
     std::printf("dataset: %s\n", options->out.c_str());
   });
 }

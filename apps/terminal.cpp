@@ -20,7 +20,7 @@ Progress::~Progress() {
   if (shown_) std::fprintf(stderr, "\r\033[K");
 }
 
-void Progress::update(double share) {
+void Progress::update(double share, const std::string& note) {
   if (!terminal_) return;
   const int permille = static_cast<int>(1000.0 * std::clamp(share, 0.0, 1.0));
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -28,9 +28,10 @@ void Progress::update(double share) {
   constexpr int kWidth = 30;
   const int full = permille * kWidth / 1000;
   const double left = share > 0.02 ? elapsed * (1.0 - share) / share : 0.0;
-  std::fprintf(stderr, "\r%-22s [%s%s] %3d %%  %3.0f s left ", what_.c_str(),
+  std::fprintf(stderr, "\r%-22s [%s%s] %3d %%  %3.0f s left%s ", what_.c_str(),
                std::string(static_cast<std::size_t>(full), '=').c_str(),
-               std::string(static_cast<std::size_t>(kWidth - full), ' ').c_str(), permille / 10, left);
+               std::string(static_cast<std::size_t>(kWidth - full), ' ').c_str(), permille / 10, left,
+               note.empty() ? "" : (", " + note).c_str());
   std::fflush(stderr);
   shown_ = true;
   shown_permille_ = permille;

@@ -21,7 +21,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void update(double share);
+  /// \param note  how it goes, in a few words
+  void update(double share, const std::string& note = "");
 
  private:
   std::string what_;

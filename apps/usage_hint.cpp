@@ -24,13 +24,19 @@ std::vector<std::string> long_options(const CLI::App& app) {
   return names;
 }
 
+std::string listed(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
 /// Empty if `word` is one of `known`.
 std::string hint(const char* what, const std::string& word, const std::vector<std::string>& known,
                  const CLI::App& app) {
   if (std::find(known.begin(), known.end(), word) != known.end()) return "";
   const auto nearest = datasets::nearest_word(word, known);
   return std::string("unknown ") + what + " '" + word + "' of " + app.get_display_name() +
-         (nearest ? "; did you mean '" + *nearest + "'?" : "");
+         (nearest ? "; did you mean '" + *nearest + "'?" : "; there are: " + listed(known));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -144,16 +145,27 @@ bool knows(const std::vector<sensors::OdometryReading>& rows, Timestamp time) {
 }
 
 /// Fills path and motion. Where odometry has not begun or has died, both stay empty.
-void add_motion(const Dataset& dataset, const AcquisitionParams& params, Timestamp previous,
+void add_motion(const Dataset& dataset, const AcquisitionParams& params, std::optional<Timestamp> previous,
                 sensors::Acquisition& acquisition) {
-  const bool is_first = previous == kEarliest;
   if (!dataset.header.rig.odometry || !knows(dataset.odometry, acquisition.time) ||
-      (!is_first && !knows(dataset.odometry, previous)))
+      (previous && !knows(dataset.odometry, *previous)))
     return;
   Stretch stretch = stretch_of(acquisition, dataset.header.rig);
-  if (!is_first) stretch.cover(previous);
+  if (previous) stretch.cover(*previous);
   acquisition.path = path_over(dataset.odometry, stretch, params.stop_and_go_from_s);
-  if (!is_first) acquisition.motion = dataset.header.rig.odometry->along(acquisition.path, previous, acquisition.time);
+  if (previous) acquisition.motion = dataset.header.rig.odometry->along(acquisition.path, *previous, acquisition.time);
+}
+
+/// The rows with previous < time <= last in the lists of an acquisition at `last`.
+sensors::Acquisition rows_between(const Dataset& dataset, std::optional<Timestamp> previous, Timestamp last) {
+  const Timestamp after = previous.value_or(kEarliest);
+  sensors::Acquisition acquisition;
+  acquisition.scans = all_rows_within(dataset.scans, after, last);
+  acquisition.sonar = all_rows_within(dataset.sonar, after, last);
+  const auto odometry = rows_within(dataset.odometry, after, last);
+  acquisition.odometry.assign(odometry.begin(), odometry.end());
+  acquisition.time = last;
+  return acquisition;
 }
 
 }  // namespace
@@ -165,45 +177,46 @@ Acquisitions::Acquisitions(const Dataset& dataset, const AcquisitionParams& para
   times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
 }
 
-sensors::Acquisition Acquisitions::rows_between(std::size_t index) const {
-  const Timestamp previous = index == 0 ? kEarliest : times_[index - 1];
-  const Timestamp last = index == size() ? kNever : times_[index];
-  sensors::Acquisition acquisition;
-  acquisition.scans = all_rows_within(dataset_->scans, previous, last);
-  acquisition.sonar = all_rows_within(dataset_->sonar, previous, last);
-  const auto odometry = rows_within(dataset_->odometry, previous, last);
-  acquisition.odometry.assign(odometry.begin(), odometry.end());
-  acquisition.time = last;
+sensors::Acquisition gather(const Dataset& dataset, std::optional<Timestamp> previous, Timestamp time,
+                            std::optional<sensors::OmniImage> image, const AcquisitionParams& params) {
+  sensors::Acquisition acquisition = rows_between(dataset, previous, time);
+  acquisition.image = std::move(image);
+  if (!dataset.scans.empty()) {
+    const Timestamp within = sensors::from_seconds(params.nearest_within_s);
+    const sensors::RangeScan* scan = nearest_row(dataset.scans.front(), time, within);
+    if (scan != nullptr && !all_nan(scan->ranges_m)) acquisition.scan = *scan;
+  }
+  add_motion(dataset, params, previous, acquisition);
   return acquisition;
+}
+
+std::optional<Timestamp> Acquisitions::time_before(std::size_t index) const {
+  return index == 0 ? std::nullopt : std::optional(times_[index - 1]);
+}
+
+std::optional<sensors::OmniImage> Acquisitions::image_of(std::size_t index) const {
+  const bool by_camera = dataset_->header.acquisition_sensor == dataset_->camera_name;
+  const ImageFile* image =
+      by_camera ? &dataset_->images[rows_[index]]
+                : nearest_row(dataset_->images, times_[index], sensors::from_seconds(params_.nearest_within_s));
+  if (image == nullptr || image->file.empty()) return std::nullopt;
+  const sensors::OmniCamera& camera = *dataset_->header.rig.camera;
+  const auto read = [&] { return read_grey_image(image->file, camera.width_px, camera.height_px); };
+  return sensors::OmniImage{image->time, with_row(image->listed_in, image->line, read)};
 }
 
 sensors::Acquisition Acquisitions::read(std::size_t index) const {
   assert(index < size());
-  sensors::Acquisition acquisition = rows_between(index);
-  const Timestamp within = sensors::from_seconds(params_.nearest_within_s);
-  const bool by_camera = dataset_->header.acquisition_sensor == dataset_->camera_name;
-  const ImageFile* image =
-      by_camera ? &dataset_->images[rows_[index]] : nearest_row(dataset_->images, acquisition.time, within);
-  if (image != nullptr && !image->file.empty()) {
-    const sensors::OmniCamera& camera = *dataset_->header.rig.camera;
-    const auto read = [&] { return read_grey_image(image->file, camera.width_px, camera.height_px); };
-    acquisition.image = sensors::OmniImage{image->time, with_row(image->listed_in, image->line, read)};
-  }
-  if (!dataset_->scans.empty()) {
-    const sensors::RangeScan* scan = nearest_row(dataset_->scans.front(), acquisition.time, within);
-    if (scan != nullptr && !all_nan(scan->ranges_m)) acquisition.scan = *scan;
-  }
-  add_motion(*dataset_, params_, index == 0 ? kEarliest : times_[index - 1], acquisition);
-  return acquisition;
+  return gather(*dataset_, time_before(index), times_[index], image_of(index), params_);
 }
 
 sensors::Acquisition Acquisitions::trailing() const {
-  sensors::Acquisition acquisition = rows_between(size());
+  sensors::Acquisition acquisition = rows_between(*dataset_, time_before(size()), kNever);
   acquisition.time = times_.empty() ? 0 : times_.back();
   for (const auto& scan : acquisition.scans) acquisition.time = std::max(acquisition.time, scan.time);
   for (const auto& sweep : acquisition.sonar) acquisition.time = std::max(acquisition.time, sweep.time);
   for (const auto& row : acquisition.odometry) acquisition.time = std::max(acquisition.time, row.time);
-  add_motion(*dataset_, params_, times_.empty() ? kEarliest : times_.back(), acquisition);
+  add_motion(*dataset_, params_, time_before(size()), acquisition);
   return acquisition;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 #include "datasets/dataset.hpp"
@@ -20,6 +21,13 @@ struct AcquisitionParams {
   /// half of the interval, so that a scan taken at a stop is not bent by a motion that came later.
   double stop_and_go_from_s = 1.0;
 };
+
+/// The acquisition at a time, of the rows of a dataset and an image that is at hand: for readings that never were on
+/// disk, and what Acquisitions does for those that are. `dataset.images` is not looked at.
+/// \param previous  the time of the acquisition before; nothing for the first
+[[nodiscard]] sensors::Acquisition gather(const Dataset& dataset, std::optional<sensors::Timestamp> previous,
+                                          sensors::Timestamp time, std::optional<sensors::OmniImage> image,
+                                          const AcquisitionParams& params = {});
 
 /// The acquisitions of a dataset, in order of time (docs/dataset-format.md, "Time"):
 ///
@@ -68,7 +76,8 @@ class Acquisitions {
   [[nodiscard]] Iterator end() const { return {this, size()}; }
 
  private:
-  [[nodiscard]] sensors::Acquisition rows_between(std::size_t index) const;
+  [[nodiscard]] std::optional<sensors::Timestamp> time_before(std::size_t index) const;
+  [[nodiscard]] std::optional<sensors::OmniImage> image_of(std::size_t index) const;
 
   const Dataset* dataset_;
   AcquisitionParams params_;

@@ -18,7 +18,7 @@
 #include "geometry/pose.hpp"
 
 /// YAML files read with suspicion: every key known, every number finite and within bounds, every complaint with its
-/// line. Not a public header of the room: it drags in yaml-cpp.
+/// line. For sources, not for headers: it drags in yaml-cpp.
 namespace credo::datasets {
 
 /// Lengths beyond this are a mistake of the file, not a building. [m]

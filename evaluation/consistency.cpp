@@ -88,22 +88,25 @@ Bounds anees_bounds(int runs, int dimension, double probability) {
   return {.lower = chi_square_quantile(tail, degrees) / runs, .upper = chi_square_quantile(1.0 - tail, degrees) / runs};
 }
 
-Consistency consistency(std::span<const std::vector<double>> nees_by_run) {
-  std::size_t indices = std::numeric_limits<std::size_t>::max();
-  for (const auto& run : nees_by_run) indices = std::min(indices, run.size());
-  if (nees_by_run.empty() || indices == 0) throw std::runtime_error("no acquisition with ground truth: no NEES");
-  Consistency result{.runs = static_cast<int>(nees_by_run.size())};
-  result.bounds = anees_bounds(result.runs, 3);
-  int inside = 0;
-  for (std::size_t i = 0; i < indices; ++i) {
+Consistency consistency(std::span<const std::vector<double>> nees_by_run, int dimension) {
+  Consistency result{.runs = static_cast<int>(nees_by_run.size()), .dimension = dimension};
+  std::size_t shortest = nees_by_run.empty() ? 0 : std::numeric_limits<std::size_t>::max();
+  for (const auto& run : nees_by_run) shortest = std::min(shortest, run.size());
+  for (std::size_t i = 0; i < shortest; ++i) {
     double sum = 0.0;
     for (const auto& run : nees_by_run) sum += run[i];
-    const double mean = sum / result.runs;
-    result.anees.push_back(mean);
-    result.mean += mean / static_cast<double>(indices);
-    inside += mean >= result.bounds.lower && mean <= result.bounds.upper ? 1 : 0;
+    if (std::isnan(sum)) continue;
+    result.indices.push_back(i);
+    result.anees.push_back(sum / result.runs);
   }
-  result.share_inside = static_cast<double>(inside) / static_cast<double>(indices);
+  if (result.indices.empty())
+    throw std::invalid_argument("no acquisition has a pose in the map and a ground truth in every run: no NEES");
+  result.bounds = anees_bounds(result.runs, dimension);
+  const auto count = static_cast<double>(result.indices.size());
+  for (const double anees : result.anees) {
+    result.mean += anees / count;
+    result.share_inside += anees >= result.bounds.lower && anees <= result.bounds.upper ? 1.0 / count : 0.0;
+  }
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,16 +37,21 @@ struct Bounds {
 /// ANEES of N independent runs: by the index of the acquisition, and over all of it.
 struct Consistency {
   int runs = 0;
-  std::vector<double> anees = {};  ///< by index, over the runs
-  Bounds bounds = {};              ///< 95 %, of one index
-  double share_inside = 0.0;       ///< of the indices
+  int dimension = 3;
+  std::vector<std::size_t> indices = {};  ///< those where every run has an error
+  std::vector<double> anees = {};         ///< at each of them, over the runs
+  Bounds bounds = {};                     ///< 95 %, of one index
+  double share_inside = 0.0;              ///< of the indices
   double mean = 0.0;
-  /// At least 90 % of the indices inside the bounds, and the mean in 2..4.
-  [[nodiscard]] bool met() const { return share_inside >= 0.9 && mean >= 2.0 && mean <= 4.0; }
+  /// At least 90 % of the indices inside the bounds, and the mean within a third of the dimension: in 2..4 for a pose.
+  [[nodiscard]] bool met() const {
+    return share_inside >= 0.9 && 3.0 * mean >= 2.0 * dimension && 3.0 * mean <= 4.0 * dimension;
+  }
 };
 
-/// \param nees_by_run  runs x indices, of dimension 3; indices beyond the shortest run are left out
-/// \throws std::runtime_error if there is no run, or an empty one
-[[nodiscard]] Consistency consistency(std::span<const std::vector<double>> nees_by_run);
+/// \param nees_by_run  runs x indices; nan where there is no error; indices beyond the shortest run are left out
+/// \param dimension  of the error: 3 for a pose, 2 for a position, 1 for a heading
+/// \throws std::invalid_argument if there is no index where every run has an error
+[[nodiscard]] Consistency consistency(std::span<const std::vector<double>> nees_by_run, int dimension = 3);
 
 }  // namespace credo::evaluation

@@ -67,11 +67,19 @@ class Tail {
   std::array<double, kSteps + 1> values_{};
 };
 
-ProbabilityInterval fault_of(double belief, const IntegrityParams& params) {
-  ProbabilityInterval fault = params.match_faults.front().fault;
-  for (const FaultPrior& prior : params.match_faults)
+ProbabilityInterval fault_of(bool wall, double belief, const IntegrityParams& params) {
+  if (wall) return params.wall_fault;
+  ProbabilityInterval fault = params.point_faults.front().fault;
+  for (const FaultPrior& prior : params.point_faults)
     if (belief >= prior.from_belief) fault = prior.fault;
   return fault;
+}
+
+/// Probability of at least so many faults that come independently of each other: Poisson's, and the first term of its
+/// series, which is above it.
+ProbabilityInterval at_least(int faults, const ProbabilityInterval& expected) {
+  const double below = std::tgamma(faults + 1.0);
+  return {std::pow(expected.low, faults) / below, std::min(1.0, std::pow(expected.high, faults) / below)};
 }
 
 ProbabilityInterval both(const ProbabilityInterval& a, const ProbabilityInterval& b) {
@@ -86,11 +94,12 @@ void IntegrityMonitor::list_landmarks(const PoseSolution& solution, std::span<co
   landmarks_.clear();
   for (std::size_t k = 0; k < solution.linearised.size(); ++k) {
     const LinearisedObservation& o = solution.linearised[k];
-    const ProbabilityInterval fault = fault_of(beliefs[k], params_);
+    const ProbabilityInterval fault = fault_of(o.kind == ObservationKind::kWall, beliefs[k], params_);
     const auto known =
         std::find_if(landmarks_.begin(), landmarks_.end(), [&o](const Landmark& l) { return l.id == o.landmark; });
-    if (known == landmarks_.end() || o.bearing) {
-      landmarks_.push_back({o.landmark, o.by_state, o.information, o.information * o.residual, fault});
+    if (known == landmarks_.end()) {
+      landmarks_.push_back(
+          {o.landmark, o.by_state, o.information, o.information * o.residual, o.kind == ObservationKind::kWall, fault});
       continue;
     }
     const PoseState::Jacobian& H = known->by_state;
@@ -161,7 +170,7 @@ void IntegrityMonitor::add_instruments(const PoseSolution& solution, const State
     StateVector gradient = StateVector::Zero();
     bool any = false;
     for (const LinearisedObservation& o : solution.linearised) {
-      if (o.bearing != camera) continue;
+      if ((o.kind == ObservationKind::kBearing) != camera) continue;
       any = true;
       information -= o.by_state.transpose() * o.information * o.by_state;
       gradient += o.by_state.transpose() * (o.information * o.residual);
@@ -205,15 +214,55 @@ void IntegrityMonitor::add_prediction(const PoseSolution& solution, const StateM
                normalised(shift, without.topLeftCorner<3, 3>(), covariance.topLeftCorner<3, 3>()));
 }
 
-/// Probability that three landmarks or more are wrong at once: Poisson's, at most the cube of the expected number
-/// over 6.
-ProbabilityInterval IntegrityMonitor::unmonitored() const {
+/// A hypothesis under which the pose is what is left of the information. A gradient is that of what is left out.
+void IntegrityMonitor::add_without(const StateMatrix& information, const StateVector& gradient,
+                                   const ProbabilityInterval& probability) {
+  StateMatrix without;
+  if (!invert(information, without)) {
+    hypotheses_.push_back({probability, 0.0, 0.0, kInfinity, kInfinity});
+    return;
+  }
+  const Vector3d shift = without.topRows<3>() * gradient;
+  hypotheses_.push_back({probability, shift.head<2>().norm(), std::abs(shift(2)),
+                         largest_sigma(without.topLeftCorner<3, 3>()), std::sqrt(without(2, 2))});
+}
+
+ProbabilityInterval IntegrityMonitor::expected_faults(bool walls) const {
   ProbabilityInterval expected;
   for (const Landmark& landmark : landmarks_) {
+    if (landmark.wall != walls) continue;
     expected.low += landmark.fault.low;
     expected.high += landmark.fault.high;
   }
-  return {std::pow(expected.low, 3) / 6.0, std::pow(expected.high, 3) / 6.0};
+  return expected;
+}
+
+/// Three wrong points and more: whichever they are, the walls and the prediction are right. Two and a wall likewise.
+void IntegrityMonitor::add_points(const PoseSolution& solution) {
+  StateMatrix information = solution.information;
+  StateVector gradient = StateVector::Zero();
+  const auto leave_out = [](const Landmark& landmark, StateMatrix& of, StateVector& towards) {
+    of -= landmark.by_state.transpose() * landmark.information * landmark.by_state;
+    towards += landmark.by_state.transpose() * landmark.weighted_residual;
+  };
+  for (const Landmark& landmark : landmarks_)
+    if (!landmark.wall) leave_out(landmark, information, gradient);
+  const ProbabilityInterval points = expected_faults(false);
+  add_without(information, gradient, at_least(3, points));
+  for (const Landmark& landmark : landmarks_) {
+    if (!landmark.wall) continue;
+    StateMatrix without_wall = information;
+    StateVector with_wall = gradient;
+    leave_out(landmark, without_wall, with_wall);
+    add_without(without_wall, with_wall, both(landmark.fault, at_least(2, points)));
+  }
+}
+
+/// Two walls and another landmark, or more.
+ProbabilityInterval IntegrityMonitor::unmonitored() const {
+  const ProbabilityInterval walls = expected_faults(true), points = expected_faults(false);
+  const ProbabilityInterval pairs = at_least(2, walls), triples = at_least(3, walls);
+  return {pairs.low * points.low + triples.low, pairs.high * points.high + triples.high};
 }
 
 double IntegrityMonitor::excess(double ProbabilityInterval::*end, double Hypothesis::*separation,
@@ -259,11 +308,16 @@ Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const
   list_landmarks(solution, beliefs);
   integrity.landmarks = static_cast<int>(landmarks_.size());
   const Matrix3d P = solution.pose.covariance();
-  hypotheses_.push_back({{1.0, 1.0}, 0.0, 0.0, largest_sigma(P), std::sqrt(P(2, 2))});
+  hypotheses_.push_back({{1.0, 1.0}, 0.0, 0.0, largest_sigma(P), std::sqrt(P(2, 2))});  // all is right
   if (StateMatrix covariance; invert(solution.information, covariance)) {
     add_landmarks(covariance, integrity);
+    add_points(solution);
     add_instruments(solution, covariance, integrity);
     add_prediction(solution, covariance, integrity);
+  }
+  for (Hypothesis& h : hypotheses_) {
+    h.sigma_m *= params_.sigma_overbound;
+    h.sigma_rad *= params_.sigma_overbound;
   }
   constexpr double kExactly = 1e-3;
   for (const Alias& alias : aliases)

@@ -47,6 +47,9 @@ struct Localization {
   double innovation = 0.0;          ///< squared Mahalanobis distance of the pose from its prediction
   bool unrecognised = false;        ///< much of what the plan has in sight is not seen
   bool off_plan = false;            ///< much of the scan does not lie on the plan
+  bool contradicted = false;        ///< the camera sees the plan under another heading
+  bool doubted = false;    ///< lately the plan did not look as it should, and nothing has confirmed the pose since
+  bool elsewhere = false;  ///< another pose is far more plausible
   ProtectionLevels protection = {};
   Status status = Status::kInitializing;
   int detected = 0;                    ///< primitives in the scene

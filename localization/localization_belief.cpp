@@ -24,15 +24,25 @@ BinaryMass agreement_belief(const LocalizationEvidence& evidence, const Localiza
   return evidence.scan_agreement ? params.scan_agreement(*evidence.scan_agreement) : BinaryMass::vacuous();
 }
 
+BinaryMass bearing_belief(const LocalizationEvidence& evidence, const LocalizationBeliefParams& params) {
+  return evidence.bearing_agreement ? params.bearings(*evidence.bearing_agreement) : BinaryMass::vacuous();
+}
+
 evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& evidence,
                                               const LocalizationBeliefParams& params) {
   const double ratio =
       evidence.detected > 0.0 ? evidence.explained / evidence.detected : std::numeric_limits<double>::quiet_NaN();
-  const std::array criteria{params.count(evidence.matched), params.ratio(ratio), recognition_belief(evidence, params),
-                            agreement_belief(evidence, params)};
+  const std::array criteria{params.count(evidence.matched),
+                            params.ratio(ratio),
+                            recognition_belief(evidence, params),
+                            agreement_belief(evidence, params),
+                            bearing_belief(evidence, params),
+                            evidence.separation ? params.separation(*evidence.separation) : BinaryMass::vacuous()};
+  const bool missed_too = params.method == perception::Method::kPaper;  // "the p tracks managed by the robot"
   std::vector<evidence::Part> parts;
   for (const tracking::Track& track : evidence.tracks) {
-    if (track.landmark == tracking::kNoLandmark || track.state != tracking::TrackState::kTracked) continue;
+    if (track.landmark == tracking::kNoLandmark) continue;
+    if (track.state != tracking::TrackState::kTracked && !missed_too) continue;
     const bool wall = track.type == perception::PrimitiveType::kWall;
     parts.push_back({track.existence, wall ? params.wall_reliability : params.other_reliability});
   }
@@ -61,6 +71,10 @@ void judge(Localization& localization, bool camera_seen, bool range_finder_seen,
   if (belief.no > belief.yes) because("most of what is seen is not in the plan");
   if (localization.unrecognised) because("landmarks that should be in sight are not seen");
   if (localization.off_plan) because("the scan does not lie on the plan");
+  if (localization.contradicted) because("camera and range finder contradict each other");
+  if (localization.doubted && !localization.unrecognised && !localization.off_plan && !localization.contradicted)
+    because("just doubted, and not confirmed yet");
+  if (localization.elsewhere) because("another pose fits far better");
   // Written so that what is not a number fails.
   const bool position_known = sigma <= params.max_position_sigma_m;
   const bool heading_known = std::sqrt(P(2, 2)) <= params.max_heading_sigma_rad;
@@ -69,10 +83,14 @@ void judge(Localization& localization, bool camera_seen, bool range_finder_seen,
   const bool predicted = localization.innovation <= params.max_innovation;
   if (!predicted) because("the pose contradicts its prediction");
 
-  if (belief.no > belief.yes) {
+  if (localization.hypotheses.size() > 1) {
+    because("several poses fit: a place that looks like others");
+    localization.status = Status::kAmbiguous;
+  } else if (belief.no > belief.yes || localization.elsewhere) {
     localization.status = Status::kLost;
   } else if (localization.matched == 0 || localization.unrecognised || localization.off_plan ||
-             !(belief.yes > params.min_belief_yes) || !position_known || !heading_known || !predicted) {
+             localization.contradicted || localization.doubted || !(belief.yes > params.min_belief_yes) ||
+             !position_known || !heading_known || !predicted) {
     localization.status = Status::kUncertain;
     if (localization.reason.empty()) because("belief is weak");
   } else {

@@ -43,6 +43,20 @@ struct LocalizationBeliefParams {
                                       .max_no = 0.9,
                                       .no_zero_until = 0.70,
                                       .no_full_from = 0.45};
+  /// The default's fifth: on the share of the camera's votes for the heading of the pose.
+  evidence::RampBelief bearings{.max_yes = 0.5,
+                                .yes_full_until = 0.55,
+                                .yes_zero_from = 0.45,
+                                .max_no = 0.8,
+                                .no_zero_until = 0.36,
+                                .no_full_from = 0.25};
+  /// The default's sixth: on how far the pose without one landmark is from the pose with all, in standard deviations.
+  evidence::RampBelief separation{.max_yes = 0.3,
+                                  .yes_full_until = 1.5,
+                                  .yes_zero_from = 2.5,
+                                  .max_no = 0.4,
+                                  .no_zero_until = 2.5,
+                                  .no_full_from = 4.0};
   int least_in_sight = 4;          ///< fewer points say nothing
   double wall_reliability = 0.3;   ///< of a wall's track as a criterion
   double other_reliability = 0.6;  ///< of a corner's, an edge's, another's: the strong azimuths
@@ -56,8 +70,12 @@ struct LocalizationBeliefParams {
 [[nodiscard]] evidence::BinaryMass agreement_belief(const LocalizationEvidence& evidence,
                                                     const LocalizationBeliefParams& params = {});
 
+/// Whether the camera sees the plan under the heading of the pose: vacuous where there is nothing to tell.
+[[nodiscard]] evidence::BinaryMass bearing_belief(const LocalizationEvidence& evidence,
+                                                  const LocalizationBeliefParams& params = {});
+
 /// Mass on "the localization is correct". The tracks that were matched in this acquisition and have a landmark take
-/// part.
+/// part; under the paper's method those that are missed, too.
 [[nodiscard]] evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& evidence,
                                                             const LocalizationBeliefParams& params = {});
 

@@ -58,20 +58,30 @@ void add_unexplained(const Primitive& primitive, PlanAgreement agreement, const 
   if (primitive.type == PrimitiveType::kWall) evidence.explained += params.on_plan_weight * believed;
 }
 
-/// Whether something that the plan does not have stands before a place: all beams towards it end nearer.
+/// Whether a place may be hidden by something that the plan does not have: the next beams on either side end nearer, or
+/// none passes near enough to tell. Without a scan nothing is known to hide anything.
 /// \param place  in the base frame
 bool hidden_by_clutter(const Scene& scene, const Vector2d& place, const LocalizationEvidenceParams& params) {
+  if (scene.points.empty()) return false;
   const double distance = place.norm();
   const Vector2d direction = place / std::max(distance, 1e-9);
-  bool nearer = false;
+  double left = params.beside_rad, right = params.beside_rad;  // how far beside the next beams pass
+  bool free_left = false, free_right = false;
   for (const sensors::ScanPoint& point : scene.points) {
     const double along = point.position.dot(direction);
-    const double across = point.position.x() * direction.y() - point.position.y() * direction.x();
-    if (!(along > 0.0) || std::abs(across) > params.beside_rad * along) continue;
-    if (along >= distance - params.clutter_m) return false;
-    nearer = true;
+    if (!(along > 0.0)) continue;
+    const double beside = (direction.x() * point.position.y() - direction.y() * point.position.x()) / along;
+    const bool free = along >= distance - params.clutter_m;
+    if (beside >= 0.0 && beside < left) {
+      left = beside;
+      free_left = free;
+    }
+    if (beside < 0.0 && -beside < right) {
+      right = -beside;
+      free_right = free;
+    }
   }
-  return nearer;
+  return !free_left && !free_right;
 }
 
 /// Points of the plan that should be seen from the pose, and those that are. Marks without relief are the camera's

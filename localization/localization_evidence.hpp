@@ -22,6 +22,11 @@ struct LocalizationEvidence {
   int recognised = 0;      ///< of them, matched
   /// ScanAgreement::share of the raw scan; nothing where there is no scan to tell, and under the paper's method.
   std::optional<double> scan_agreement;
+  /// Share of the camera's votes that the pose gets against the best other heading (BearingAgreement); nothing where
+  /// too few are cast, and under the paper's method.
+  std::optional<double> bearing_agreement;
+  /// Integrity::separation; nothing for few landmarks, and under the paper's method.
+  std::optional<double> separation;
   std::span<const tracking::Track> tracks;
 };
 
@@ -33,8 +38,8 @@ struct LocalizationEvidenceParams {
   double on_plan_weight = 0.5;      ///< of something that lies on a wall of the plan without being a landmark
   double unmapped_weight = 0.25;    ///< of something in the plan's free space, against the localization
   double sight_m = 4.0;             ///< a point of the plan this near should be seen where nothing hides it:
-  double clutter_m = 0.15;          ///< something so much nearer than the point hides it, where all beams
-  double beside_rad = 0.03;         ///< that pass so near beside the point say so
+  double clutter_m = 0.15;          ///< something so much nearer than the point hides it, where the beams beside it
+  double beside_rad = 0.06;         ///< say so, which pass no farther aside
 };
 
 /// Holds a scene against the plan as seen from a pose. Under the paper's method a primitive is matched or not. Under

@@ -31,6 +31,19 @@ using tracking::Track;
 /// The start of a run without a plan or without an initial pose: the origin of its own frame, exactly.
 constexpr double kOriginSigma = 1e-6;
 
+/// Second moment of poses about one of them, weighted by their plausibilities.
+Matrix3d spread(const std::vector<Hypothesis>& hypotheses, const Pose2& about) {
+  Matrix3d sum = Matrix3d::Zero();
+  double total = 0.0;
+  for (const Hypothesis& h : hypotheses) {
+    const Eigen::Vector3d off(h.pose.x - about.x, h.pose.y - about.y,
+                              geometry::angle_difference(h.pose.theta, about.theta));
+    sum += h.plausibility * off * off.transpose();
+    total += h.plausibility;
+  }
+  return sum / total;
+}
+
 }  // namespace
 
 struct Localizer::State {
@@ -40,10 +53,11 @@ struct Localizer::State {
         rig(instruments),
         map(plan, params.map),
         fitter(map, instruments, params.fit),
-        scan_matcher(map, params.fit.scan),
         tracker(params.tracker),
         labels(map, params.contradictions_allowed),
         monitor(params.integrity),
+        search(map, fitter.scan_matcher().field(), rig, params.search),
+        elsewhere(search, fitter, params.hypotheses),
         absolute(initial.has_value() && !map.empty()),
         predictor(params.constant_velocity) {
     if (rig.camera) {
@@ -59,17 +73,23 @@ struct Localizer::State {
   perception::MirrorEstimate mirror;  ///< the latest
   LandmarkMap map;
   SceneFitter fitter;
-  ScanMatcher scan_matcher;
   tracking::Tracker tracker;
   TrackLabels labels;
   IntegrityMonitor monitor;
-  bool absolute;             ///< poses are in the map frame, not relative to the start
-  SceneFit fit;              ///< the latest pose and what it rests on
-  SceneFit other;            ///< another one that is tried
-  CalibratedPose predicted;  ///< from the latest pose
-  CalibratedPose wide;       ///< the same, less sure
-  int matched_before = 0;    ///< primitives that the latest fix rests on
-  int unchecked = 0;         ///< acquisitions since the scan last lay on the plan
+  GlobalSearch search;
+  PoseHypotheses elsewhere;      ///< where the robot may be, while its pose is unknown or in doubt
+  bool absolute;                 ///< poses are in the map frame, not relative to the start
+  SceneFit fit;                  ///< the latest pose and what it rests on
+  SceneFit other;                ///< another one that is tried
+  CalibratedPose predicted;      ///< from the latest pose
+  CalibratedPose wide;           ///< the same, less sure
+  int matched_before = 0;        ///< primitives that the latest fix rests on
+  int doubted = 0;               ///< acquisitions in a row in which the plan was not recognised
+  bool jumped = false;           ///< in this acquisition: the pose was found some way from where it was expected
+  bool unconfirmed = false;      ///< the pose has jumped, and the hypotheses have not borne it out yet
+  bool found_elsewhere = false;  ///< in this acquisition: the pose is another one than was thought
+  int trusted = 1000;  ///< acquisitions in a row in which nothing spoke against the pose; at the start it was given
+  int unchecked = 0;   ///< acquisitions since the scan last lay on the plan
   PoseHistory history;
   MotionPredictor predictor;
   std::vector<double> landmark_beliefs;  ///< by observation, a workspace
@@ -81,22 +101,26 @@ struct Localizer::State {
   void expect_landmarks(const CalibratedPose& from);
   void expect_young_tracks(const Pose2& step);
   [[nodiscard]] Pose2 likeliest_first_step(const Scene& scene);
-  void solve_motion(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
+  PoseEstimate solve_motion(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
   void start_tracks(const Scene& scene);
-  void gather(const Scene& scene, SceneFit& of) const;
   [[nodiscard]] double quality(const SceneFit& of, const Scene& scene) const;
   void search_pose(const Scene& scene, bool odometry);
   bool match_anew(const Scene& scene, const CalibratedPose& expected);
+  [[nodiscard]] bool doubtful() const;
+  void look_elsewhere(const Scene& scene, const PoseEstimate& motion);
+  void go_to(const SceneFit& found);
+  void report_hypotheses(Localization& fix) const;
   [[nodiscard]] Localization report(const Scene& scene) const;
   [[nodiscard]] Integrity watch();
   void weigh(const Scene& scene, Localization& fix);
   void remember(const Localization& fix);
 };
 
-/// Odometry's motion; else what the latest velocity predicts; nothing before the first scene.
+/// Odometry's motion, which the paper's method does without; else what the latest velocity predicts; nothing before the
+/// first scene.
 PoseEstimate Localizer::State::predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const {
   if (history.empty()) return {};
-  if (motion && (params.method == perception::Method::kDefault || !absolute)) return *motion;
+  if (motion && params.method == perception::Method::kDefault) return *motion;
   return predictor.predict(sensors::seconds_between(history.latest().time, time));
 }
 
@@ -181,13 +205,6 @@ Pose2 Localizer::State::likeliest_first_step(const Scene& scene) {
   return best;
 }
 
-/// What speaks for and against a pose, the tracks left out.
-void Localizer::State::gather(const Scene& scene, SceneFit& of) const {
-  of.evidence = gather_evidence(scene, map, of.observations, of.solution, params.fit.evidence);
-  if (params.method == perception::Method::kDefault)
-    of.evidence.scan_agreement = scan_matcher.compare(scene.points, of.pose.pose).share(params.fit.scan);
-}
-
 /// By which two ways to match a scene are compared: the belief in the pose and the share of what is seen that it
 /// explains.
 double Localizer::State::quality(const SceneFit& of, const Scene& scene) const {
@@ -199,7 +216,7 @@ double Localizer::State::quality(const SceneFit& of, const Scene& scene) const {
 /// the raw scan and the landmarks that should be in sight do not. Where these speak against the pose, everything is
 /// matched anew from the pose nearby from which the scan lies best on the plan, and what is believed more is kept.
 void Localizer::State::search_pose(const Scene& scene, bool odometry) {
-  gather(scene, fit);
+  fitter.gather(scene, fit);
   if (!fit.evidence.scan_agreement) return;
   const bool off_plan = *fit.evidence.scan_agreement < params.search_below;
   const bool unrecognised = recognition_belief(fit.evidence, params.belief).no > 0.0;
@@ -218,20 +235,75 @@ void Localizer::State::search_pose(const Scene& scene, bool odometry) {
 bool Localizer::State::match_anew(const Scene& scene, const CalibratedPose& expected) {
   const double position = params.searched_sigma_m * params.searched_sigma_m;
   const double turn = params.searched_sigma_rad * params.searched_sigma_rad;
-  const PoseEstimate found{scan_matcher.search(scene.points, {expected.pose, expected.covariance()}),
+  const PoseEstimate found{fitter.scan_matcher().search(scene.points, {expected.pose, expected.covariance()}),
                            Eigen::Vector3d(position, position, turn).asDiagonal()};
   fitter.fit_anew(scene, found, expected, other);
-  gather(scene, other);
+  fitter.gather(scene, other);
   if (!(quality(other, scene) > quality(fit, scene) + params.search_gain)) return false;
   std::swap(fit, other);
+  jumped = jumped || (fit.pose.pose.translation() - expected.pose.translation()).norm() > params.hypotheses.meet_m;
   labels.forget_all(tracker);
   return true;
 }
 
+/// The plan does not look as it should from the pose.
+bool Localizer::State::doubtful() const {
+  return agreement_belief(fit.evidence, params.belief).no > 0.0 ||
+         recognition_belief(fit.evidence, params.belief).no > 0.0;
+}
+
+/// Follows all poses that the robot may have, from when the pose is doubted, or has jumped, until one is left. That one
+/// is taken.
+void Localizer::State::look_elsewhere(const Scene& scene, const PoseEstimate& motion) {
+  if (params.method == perception::Method::kPaper || map.empty()) return;
+  doubted = absolute && doubtful() ? doubted + 1 : 0;
+  if (absolute && elsewhere.empty()) {
+    if (doubted < params.doubts_before_search && !jumped) return;
+    elsewhere.add(fit.pose);
+  }
+  unconfirmed = absolute && (unconfirmed || jumped);
+  elsewhere.update(scene, motion);
+  if (!elsewhere.resolved()) return;
+  unconfirmed = false;
+  const SceneFit& best = *elsewhere.best();
+  if (!absolute || elsewhere.lead_over(fit.pose.pose) > 0.0) go_to(best);
+  elsewhere.clear();
+  trusted = params.trusted_again_after;
+}
+
+/// The pose is another one than was thought.
+void Localizer::State::go_to(const SceneFit& found) {
+  fit = found;
+  labels.forget_all(tracker);
+  absolute = found_elsewhere = true;
+  doubted = 0;
+}
+
+/// What is known of other poses, while they are looked for. Before there is an absolute pose the most plausible one is
+/// told, believed as far as the others are implausible.
+void Localizer::State::report_hypotheses(Localization& fix) const {
+  if (elsewhere.empty()) return;
+  fix.hypotheses = elsewhere.listed();
+  fix.elsewhere = absolute && elsewhere.lead_over(fit.pose.pose) > params.elsewhere_lead;
+  if (!absolute) fix.belief = {.yes = 0.0, .no = 1.0, .unknown = 0.0};
+  if (!absolute && !fix.hypotheses.empty()) {
+    const double believed = fix.hypotheses.front().belief;
+    fix.estimate = elsewhere.best()->estimate();
+    fix.belief = {.yes = believed, .no = 0.0, .unknown = 1.0 - believed};
+    fix.matched = elsewhere.best()->evidence.matched;
+    fix.reason = "the place is not confirmed yet";
+  }
+  if (fix.hypotheses.size() < 2) return;
+  fix.estimate.covariance += spread(fix.hypotheses, fix.estimate.pose);
+  fix.status = Status::kAmbiguous;
+  fix.reason = "several poses fit: a place that looks like others";
+}
+
 /// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
-void Localizer::State::solve_motion(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion) {
+PoseEstimate Localizer::State::solve_motion(const Scene& scene, const std::vector<Match>& matches,
+                                            const PoseEstimate& motion) {
   fit.observations.clear();
-  if (history.empty()) return;
+  if (history.empty()) return motion;
   for (const Match& match : matches) {
     const Track& track = tracker.tracks()[static_cast<std::size_t>(match.track)];
     const Primitive& now = scene.primitives[static_cast<std::size_t>(match.primitive)];
@@ -241,7 +313,9 @@ void Localizer::State::solve_motion(const Scene& scene, const std::vector<Match>
     fit.observations.push_back(observe_again(now, track.last_seen, params.fit.observations));
     fit.observations.back().primitive = match.primitive;
   }
-  move(fit.pose, fitter.solve_motion(scene, motion, fit));
+  const PoseEstimate solved = fitter.solve_motion(scene, motion, fit);
+  move(fit.pose, solved);
+  return solved;
 }
 
 void Localizer::State::start_tracks(const Scene& scene) {
@@ -270,7 +344,7 @@ Localization Localizer::State::report(const Scene& scene) const {
   fix.detected = static_cast<int>(scene.primitives.size());
   if (!absolute)
     fix.reason = map.empty() ? "no floor plan: the pose is relative to the start"
-                             : "no initial pose: the pose is relative to the start";
+                             : "no initial pose: the place is not found yet";
   return fix;
 }
 
@@ -287,36 +361,45 @@ Integrity Localizer::State::watch() {
 }
 
 /// Belief and status of an absolute pose. Where nothing is seen there is no evidence against it: what was believed
-/// fades into not knowing.
+/// fades into not knowing. The paper's method knows its p + 2 criteria alone.
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
+  const bool paper = params.method == perception::Method::kPaper;
   LocalizationEvidence& evidence = fit.evidence;
   evidence.tracks = tracker.tracks();
+  if (!paper) {
+    const Integrity integrity = watch();
+    fix.protection = integrity.protection;
+    if (integrity.landmarks >= params.belief.least_in_sight) evidence.separation = integrity.separation;
+  }
   const bool on_plan = evidence.scan_agreement && agreement_belief(evidence, params.belief).no < 0.5;
   unchecked = on_plan ? 0 : unchecked + 1;
   const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
   const evidence::FusedBinaryMass belief =
-      scene.primitives.empty() ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
-                               : localization_belief(evidence, params.belief);
+      scene.primitives.empty() && !paper
+          ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
+          : localization_belief(evidence, params.belief);
   fix.belief = belief.mass;
   fix.conflict = belief.conflict;
   fix.matched = matched_before = evidence.matched;
   fix.innovation = fit.solution.prior_mahalanobis_squared;
-  if (fix.innovation > params.status.max_innovation)
+  if (!paper && fix.innovation > params.status.max_innovation)
     fix.belief = evidence::discount(fix.belief, params.contradiction_reliability);
-  if (params.method == perception::Method::kDefault && unchecked > params.checked_for)
+  if (!paper && unchecked > params.checked_for)
     fix.belief = evidence::discount(fix.belief, params.unchecked_reliability);
   fix.unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
   fix.off_plan = agreement_belief(evidence, params.belief).no > 0.0;
-  const Integrity integrity = watch();
-  fix.protection = integrity.protection;
+  fix.contradicted = bearing_belief(evidence, params.belief).no > 0.0;
+  trusted = fix.unrecognised || fix.off_plan || fix.contradicted ? 0 : trusted + 1;
+  fix.doubted = unconfirmed || trusted < params.trusted_again_after;
   if (fix.unrecognised || fix.off_plan) {
     widen(fit.pose, doubt());
-    fix.estimate = fit.estimate();
+    fix.estimate.covariance += doubt();
   }
   judge(fix, scene.camera_seen, scene.range_finder_seen, params.status);
 }
 
 void Localizer::State::remember(const Localization& fix) {
+  if (found_elsewhere) history.forget();
   history.add({fix.time, fix.estimate, fix.belief});
   if (history.before() && fix.time > history.before()->time)
     predictor.add(history.before()->estimate.pose.inverse() * fix.estimate.pose,
@@ -350,6 +433,7 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   const std::vector<Match>& matches = s.tracker.associate(scene);
 
   s.fit.new_matches.clear();
+  s.jumped = s.found_elsewhere = false;
   if (s.absolute) {
     // A wall's track that goes on as a junction, or the reverse, is another landmark.
     for (const Match& match : matches)
@@ -359,18 +443,21 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
     if (!s.history.empty()) move(s.predicted, step, s.params.calibration_walk);
     s.fitter.fit(scene, s.tracker.tracks(), matches, s.predicted, s.history.empty(), s.fit);
     s.search_pose(scene, motion.has_value());
-    s.labels.label(matches, s.tracker, s.fit);
+    s.look_elsewhere(scene, step);
   } else {
-    s.solve_motion(scene, matches, step);
+    s.look_elsewhere(scene, s.solve_motion(scene, matches, step));
   }
+  if (s.absolute) s.labels.label(matches, s.tracker, s.fit);
   // 5. Start tracks; let go of landmarks that contradict the pose.
   s.start_tracks(scene);
-  if (s.absolute) s.labels.drop_contradicting(s.fit, s.tracker);
+  // Under the paper's method a track keeps its landmark as long as it lives.
+  if (s.absolute && s.params.method == perception::Method::kDefault) s.labels.drop_contradicting(s.fit, s.tracker);
   s.tracker.update(scene);
   s.labels.forget_lost(s.tracker.tracks());
 
   // 6. Beliefs and status.
   Localization fix = s.report(scene);
+  s.report_hypotheses(fix);
   if (s.absolute) s.weigh(scene, fix);
   s.remember(fix);
   return fix;

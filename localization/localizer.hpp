@@ -12,6 +12,7 @@
 #include "localization/localization.hpp"
 #include "localization/localization_belief.hpp"
 #include "localization/motion_prediction.hpp"
+#include "localization/pose_hypotheses.hpp"
 #include "localization/rig_calibration.hpp"
 #include "localization/scene_fit.hpp"
 #include "tracking/tracker.hpp"
@@ -25,6 +26,8 @@ struct LocalizerParams {
   SceneFitParams fit;
   LocalizationBeliefParams belief;
   IntegrityParams integrity;
+  GlobalSearchParams search;
+  PoseHypothesesParams hypotheses;
   StatusParams status;
   ConstantVelocityParams constant_velocity;
   CalibrationWalk calibration_walk;
@@ -43,7 +46,11 @@ struct LocalizerParams {
   int checked_for = 3;                     ///< so many acquisitions a scan that lay on the plan vouches for;
   double unchecked_reliability = 0.75;  ///< of the belief after that: nothing but what was matched speaks for the pose
   double blind_reliability = 0.8;       ///< of the last belief where nothing at all is seen
-  int contradictions_allowed = 1;       ///< a track that contradicts the pose more often in a row loses its landmark
+  int doubts_before_search =
+      2;                        ///< acquisitions in a row without the plan recognised: then it is looked for everywhere
+  int trusted_again_after = 2;  ///< acquisitions without doubt after one with, until the pose is trusted again
+  double elsewhere_lead = 3.0;  ///< log plausibility by which another pose has to lead for the pose to be doubted
+  int contradictions_allowed = 1;  ///< a track that contradicts the pose more often in a row loses its landmark
 
   /// The parameters with `method` handed down to every part.
   [[nodiscard]] LocalizerParams with_method(perception::Method chosen) const;

@@ -11,7 +11,7 @@ namespace credo::localization {
 LocalizerParams LocalizerParams::with_method(perception::Method chosen) const {
   LocalizerParams params = *this;
   params.method = params.tracker.method = params.belief.method = chosen;
-  params.fit.matching.method = params.fit.evidence.method = chosen;
+  params.fit.method = params.fit.matching.method = params.fit.evidence.method = chosen;
   params.map.cut_walls_at_points = chosen == perception::Method::kPaper;
   return params;
 }
@@ -35,6 +35,8 @@ void check(const LocalizerParams& params) {
   evidence::check(params.belief.ratio, "localizer: belief.ratio");
   evidence::check(params.belief.recognised, "localizer: belief.recognised");
   evidence::check(params.belief.scan_agreement, "localizer: belief.scan_agreement");
+  evidence::check(params.belief.bearings, "localizer: belief.bearings");
+  evidence::check(params.belief.separation, "localizer: belief.separation");
   require(params.fit.matching_rounds >= 1, "fit.matching_rounds has to be at least 1");
   require(params.fit.solver.robust_scale > 0.0, "fit.solver.robust_scale has to be positive");
   require(params.fit.solver.reweightings >= 1, "fit.solver.reweightings has to be at least 1");

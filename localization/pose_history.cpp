@@ -13,6 +13,11 @@ void PoseHistory::add(const Fix& fix) {
   latest_ = fix;
 }
 
+void PoseHistory::forget() {
+  before_.reset();
+  latest_.reset();
+}
+
 evidence::Believed<PoseEstimate> PoseHistory::pose_at(sensors::Timestamp time) const {
   const bool between = before_ && time < latest_->time && time >= before_->time;
   const Fix& anchor = between ? *before_ : *latest_;

@@ -24,6 +24,8 @@ class PoseHistory {
   /// The path from the latest fix to the next one and on, in any frame.
   void follow(const sensors::MotionPath& path) { path_ = path; }
   void add(const Fix& fix);
+  /// What was before says nothing of what comes: the robot was somewhere else than was thought.
+  void forget();
 
   [[nodiscard]] bool empty() const { return !latest_; }
   /// Precondition: !empty().

@@ -277,8 +277,8 @@ void PoseSolver::State::judge(const PoseState::Vector& x) {
     const PoseState::Jacobian by_state = l.by_state + l.by_step;
     const Matrix2d weight = l.rest().inverse();
     solution.information.noalias() += by_state.transpose() * (weight * by_state);
-    solution.linearised.push_back({observations[k].landmark, observations[k].kind == ObservationKind::kBearing,
-                                   residual + l.by_step * step, by_state, weight});
+    solution.linearised.push_back(
+        {observations[k].landmark, observations[k].kind, residual + l.by_step * step, by_state, weight});
     const double squared = observations[k].dimension() * normalised_square(observations[k], l.covariance, residual);
     solution.mahalanobis_squared.push_back(squared);
     solution.outlier.push_back(squared > gates[static_cast<std::size_t>(observations[k].dimension() - 1)]);

@@ -24,7 +24,7 @@ struct PoseSolverParams {
 /// An observation as the solution used it, linearised there; what the prior tells of the plan's error is taken out.
 struct LinearisedObservation {
   tracking::LandmarkId landmark = tracking::kNoLandmark;
-  bool bearing = false;  ///< the camera's alone
+  ObservationKind kind = ObservationKind::kWall;
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();
   PoseState::Jacobian by_state = PoseState::Jacobian::Zero();
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< robust weight included; a bearing's second row is idle

@@ -49,6 +49,8 @@ class ScanMatcher {
   [[nodiscard]] ScanAgreement compare(std::span<const sensors::ScanPoint> points,
                                       const geometry::Pose2& T_map_base) const;
 
+  [[nodiscard]] const DistanceField& field() const { return field_; }
+
   /// The pose about an expected one from which most points lie near walls: exhaustive in steps (Olson, ICRA 2009), then
   /// refined. Where the plan looks the same along a direction the expected pose decides.
   /// \param expected  its covariance is positive definite

@@ -28,7 +28,8 @@ SceneFitter::SceneFitter(const LandmarkMap& map, const sensors::Rig& rig, const 
       matcher_(map, params.matching),
       first_matcher_(map, given_matching(params.matching)),
       solver_(params.solver),
-      uncalibrated_(calibrated_pose(rig, {})) {}
+      uncalibrated_(calibrated_pose(rig, {}, 2 * (map.junction_count() + map.landmark_count()))),
+      scan_matcher_(map, params.scan) {}
 
 void SceneFitter::fit(const Scene& scene, std::span<const tracking::Track> tracks, std::span<const Match> matches,
                       const CalibratedPose& expected, bool given, SceneFit& fit) {
@@ -36,7 +37,9 @@ void SceneFitter::fit(const Scene& scene, std::span<const tracking::Track> track
   fit.new_matches.clear();
   observe_tracks(scene, tracks, matches, fit);
   solve(scene, expected, fit);
-  match_map(scene, expected, given ? first_matcher_ : matcher_, fit);
+  // The paper's method looks at the map once, from the pose that the tracks gave (Clerentin et al., sec. 4.2).
+  const bool once = params_.method == perception::Method::kPaper && !given;
+  match_map(scene, expected, given ? first_matcher_ : matcher_, once ? 1 : params_.matching_rounds, fit);
 }
 
 void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& from, const CalibratedPose& expected,
@@ -47,7 +50,21 @@ void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& fro
   start_ = expected;
   place(start_, from);
   solve(scene, start_, fit);
-  match_map(scene, expected, matcher_, fit);
+  match_map(scene, expected, matcher_, params_.matching_rounds, fit);
+  match_map(scene, expected, matcher_, params_.matching_rounds, fit);
+}
+
+void SceneFitter::gather(const Scene& scene, SceneFit& fit) const {
+  fit.evidence = gather_evidence(scene, *map_, fit.observations, fit.solution, params_.evidence);
+  if (params_.method == perception::Method::kPaper) return;
+  fit.evidence.scan_agreement = scan_matcher_.compare(scene.points, fit.pose.pose).share(params_.scan);
+  fit.evidence.bearing_agreement =
+      compare_bearings(scene, *map_, fit.pose.pose, params_.bearings).share(params_.bearings);
+}
+
+const CalibratedPose& SceneFitter::uncalibrated(const geometry::PoseEstimate& at) {
+  place(uncalibrated_, at);
+  return uncalibrated_;
 }
 
 const CalibratedPose& SceneFitter::sharpen(const Scene& scene, const CalibratedPose& expected) {
@@ -63,9 +80,7 @@ const CalibratedPose& SceneFitter::sharpen(const Scene& scene, const CalibratedP
 
 geometry::PoseEstimate SceneFitter::solve_motion(const Scene& scene, const geometry::PoseEstimate& motion,
                                                  SceneFit& fit) {
-  start_ = uncalibrated_;
-  place(start_, motion);
-  fit.solution = solver_.solve(start_, fit.observations, scene.carry_covariance);
+  fit.solution = solver_.solve(uncalibrated(motion), fit.observations, scene.carry_covariance);
   return fit.solution.estimate();
 }
 
@@ -118,7 +133,8 @@ void SceneFitter::solve(const Scene& scene, const CalibratedPose& expected, Scen
   fit.pose = fit.solution.pose;
 }
 
-void SceneFitter::match_map(const Scene& scene, const CalibratedPose& expected, MapMatcher& matcher, SceneFit& fit) {
+void SceneFitter::match_map(const Scene& scene, const CalibratedPose& expected, MapMatcher& matcher, int rounds,
+                            SceneFit& fit) {
   const auto add = [&](const std::vector<MapMatch>& found) {
     for (const MapMatch& match : found) {
       observe_landmark(scene, match.primitive, match.landmark, -1, fit);
@@ -127,7 +143,7 @@ void SceneFitter::match_map(const Scene& scene, const CalibratedPose& expected, 
     if (!found.empty()) solve(scene, expected, fit);
     return !found.empty();
   };
-  for (int round = 0; round < params_.matching_rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     list_unmatched(scene, fit);
     const bool walls = add(matcher.match_walls(scene, unmatched_, fit.estimate()));
     list_unmatched(scene, fit);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "localization/bearing_agreement.hpp"
 #include "localization/landmark_map.hpp"
 #include "localization/localization_evidence.hpp"
 #include "localization/map_matching.hpp"
@@ -17,11 +18,13 @@
 namespace credo::localization {
 
 struct SceneFitParams {
+  perception::Method method = perception::Method::kDefault;
   MapMatchingParams matching;
   ObservationParams observations;
   PoseSolverParams solver;
   ScanAgreementParams scan;
   LocalizationEvidenceParams evidence;
+  BearingAgreementParams bearings;
   int matching_rounds = 3;  ///< map matching and pose in turn: each round knows the pose better
 };
 
@@ -56,6 +59,12 @@ class SceneFitter {
   void fit_anew(const perception::Scene& scene, const geometry::PoseEstimate& from, const CalibratedPose& expected,
                 SceneFit& fit);
 
+  /// A pose of which nothing is known but this; the instruments as they came. Stays valid until the next call.
+  [[nodiscard]] const CalibratedPose& uncalibrated(const geometry::PoseEstimate& at);
+
+  /// What speaks for and against the pose of a fit, the tracks left out, into fit.evidence.
+  void gather(const perception::Scene& scene, SceneFit& fit) const;
+
   /// The expected pose as the walls alone correct it: they are few, long and far apart, so that even from a poor
   /// prediction none is taken for another. For looking for the rest; `expected` itself where no wall is matched.
   [[nodiscard]] const CalibratedPose& sharpen(const perception::Scene& scene, const CalibratedPose& expected);
@@ -64,13 +73,18 @@ class SceneFitter {
   [[nodiscard]] geometry::PoseEstimate solve_motion(const perception::Scene& scene,
                                                     const geometry::PoseEstimate& motion, SceneFit& fit);
 
+  /// The raw scan against the plan.
+  [[nodiscard]] ScanMatcher& scan_matcher() { return scan_matcher_; }
+
  private:
   void observe_tracks(const perception::Scene& scene, std::span<const tracking::Track> tracks,
                       std::span<const tracking::Match> matches, SceneFit& fit);
   void observe_landmark(const perception::Scene& scene, int primitive, tracking::LandmarkId landmark, int track,
                         SceneFit& fit);
   void list_unmatched(const perception::Scene& scene, const SceneFit& fit);
-  void match_map(const perception::Scene& scene, const CalibratedPose& expected, MapMatcher& matcher, SceneFit& fit);
+  /// What continues no track of the map, walls before points, from a pose that every round knows better.
+  void match_map(const perception::Scene& scene, const CalibratedPose& expected, MapMatcher& matcher, int rounds,
+                 SceneFit& fit);
   void solve(const perception::Scene& scene, const CalibratedPose& expected, SceneFit& fit);
 
   const LandmarkMap* map_;
@@ -79,6 +93,7 @@ class SceneFitter {
   MapMatcher first_matcher_;
   PoseSolver solver_;
   CalibratedPose uncalibrated_;  ///< the rig as it came
+  ScanMatcher scan_matcher_;
 
   SceneFit by_walls_;
 

@@ -46,6 +46,7 @@ struct Observer::State {
   SceneParams scene_params;
   std::optional<RadialLineExtractor> extractor;
   std::optional<sensors::RangeFinder> range_finder;
+  const sensors::MotionPath rest;  // no motion at all
   sensors::OdometryNoise odometry{.translation_per_metre = 0.2, .rotation_per_metre = 0.2, .rotation_per_radian = 0.2};
   std::optional<Segmenter> segmenter;
   Scene scene;
@@ -71,16 +72,17 @@ void Observer::State::look(const sensors::Acquisition& acquisition) {
   if (extractor && acquisition.image) extractor->extract(*acquisition.image, scene);
 }
 
-/// The range finder's part.
+/// The range finder's part. The paper's robot rests while it measures, and knows no motion that would carry a scan.
 void Observer::State::measure(const sensors::Acquisition& acquisition) {
   scene.points.clear();
   scene.carry_covariance.setZero();
   segments.clear();
   if (segmenter && acquisition.scan) {
-    sensors::carry_scan(*acquisition.scan, *range_finder, acquisition.path, acquisition.time, scene.points);
+    const sensors::MotionPath& path = params.method == Method::kPaper ? rest : acquisition.path;
+    sensors::carry_scan(*acquisition.scan, *range_finder, path, acquisition.time, scene.points);
     segmenter->segment(acquisition.scan->ranges_m, scene.points, segments);
     const auto [first, last] = std::minmax(acquisition.scan->time, acquisition.time);
-    scene.carry_covariance = odometry.along(acquisition.path, first, last).covariance;
+    scene.carry_covariance = odometry.along(path, first, last).covariance;
   }
   scene.range_finder_seen = !scene.points.empty();
 }

@@ -132,20 +132,25 @@ std::string to_yaml(const RunConfig& config) {
   out += "map_poses: " + yaml_quoted(config.map_poses) + "\n";
   const bool paper = config.localizer.method == perception::Method::kPaper;
   out += "belief_yes: >-\n  Mass on \"the localization is correct\", fused by ";
-  out +=
-      paper ? "Dempster's rule from the number of matched primitives, the\n"
-              "  share of the detected ones that were matched, and the existence of each matched track (Clerentin et "
-              "al., sec. 4.5).\n"
-            : "conflict to ignorance from the number of matched\n"
-              "  primitives, the share of the detected ones that the plan explains, the share of the plan's points in "
-              "sight that are\n"
-              "  recognised, the share of the scan that lies on the plan, and the mean existence of the matched tracks "
-              "(after Clerentin\n"
-              "  et al., sec. 4.5). Halved where the pose contradicts its prediction, faded where nothing is seen.\n";
-  out +=
-      "  It is a degree of belief, not a calibrated probability of a bounded error: no integrity monitor has looked, "
-      "and the\n"
-      "  protection levels (pl_ columns of localization.csv) are nan.\n";
+  out += paper
+             ? "Dempster's rule from the number of matched primitives, the\n"
+               "  share of the detected ones that were matched, and the existence of each track that has a landmark\n"
+               "  (Clerentin et al., sec. 4.5).\n"
+             : "conflict to ignorance from the number of matched\n"
+               "  primitives, the share of the detected ones that the plan explains, the share of the plan's points in "
+               "sight that are\n"
+               "  recognised, the share of the scan that lies on the plan, the camera's bearings under the pose's "
+               "heading, the "
+               "agreement of\n  the pose with what is left of it without a landmark, and the mean existence of the "
+               "matched "
+               "tracks (after Clerentin\n  et al., sec. 4.5). Halved where the pose contradicts its prediction, faded "
+               "where nothing is seen.\n";
+  out += paper ? "  It is a degree of belief, not a calibrated probability: the paper has no integrity monitor, and "
+                 "the protection\n"
+                 "  levels (pl_ columns of localization.csv) are nan.\n"
+               : "  The protection levels (pl_ columns of localization.csv) are the errors that are exceeded with the "
+                 "probability\n"
+                 "  localizer.integrity.risk, at the low and the high end of what is known of wrong matches.\n";
   emit(out, "observer", config.observer, 0);
   emit(out, "localizer", config.localizer, 0);
   emit(out, "mapper", config.mapper, 0);

@@ -9,8 +9,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "datasets/format_error.hpp"
 #include "datasets/text_file.hpp"
@@ -99,6 +101,12 @@ class RowReader {
     return value;
   }
   std::string text() { return fields_[next_++]; }
+  /// What has not been read.
+  std::vector<std::string> rest(std::size_t count) {
+    if (fields_.size() != next_ + count)
+      fail(fmt::format("expected {} columns, found {}", next_ + count, fields_.size()));
+    return {fields_.begin() + static_cast<std::ptrdiff_t>(next_), fields_.end()};
+  }
   Status status() {
     const std::string word = text();
     for (const Status status : kStatuses) {
@@ -125,7 +133,7 @@ Eigen::Matrix3d read_covariance(RowReader& read) {
   return covariance;
 }
 
-LocalizationRow read_row(RowReader read) {
+LocalizationRow read_row(RowReader& read) {
   LocalizationRow row;
   localization::Localization& l = row.localization;
   l.time = read.time();
@@ -147,6 +155,28 @@ LocalizationRow read_row(RowReader read) {
   return row;
 }
 
+/// Calls read(RowReader&), which returns the row's time, for every row of a table with this header or more columns.
+template <typename Read>
+void for_each_row(const std::filesystem::path& file, std::string_view header, const Read& read) {
+  std::istringstream in(datasets::read_text_file(file));
+  std::string text;
+  const std::string_view known = header.substr(0, header.size() - 1);
+  if (!std::getline(in, text) || !text.starts_with(known)) {
+    throw datasets::FormatError(file, 1, "is no localization.csv: expected the header '" + std::string(known) + "'");
+  }
+  std::optional<sensors::Timestamp> above;
+  for (int line = 2; std::getline(in, text); ++line) {
+    if (datasets::trimmed(text).empty() || text[0] == '#') continue;
+    RowReader row(file, line, text);
+    const sensors::Timestamp time = read(row);
+    if (above && time < *above) {
+      throw datasets::FormatError(file, line,
+                                  "the time is before that of the row above: expected rows in order of time");
+    }
+    above = time;
+  }
+}
+
 }  // namespace
 
 std::string to_line(const LocalizationRow& row) {
@@ -163,23 +193,36 @@ std::string to_line(const LocalizationRow& row) {
 }
 
 std::vector<LocalizationRow> read_localization(const std::filesystem::path& file) {
-  std::istringstream in(datasets::read_text_file(file));
   std::vector<LocalizationRow> rows;
-  std::string text;
-  const std::string_view known = kLocalizationHeader.substr(0, kLocalizationHeader.size() - 1);
-  if (!std::getline(in, text) || !text.starts_with(known)) {
-    throw datasets::FormatError(file, 1, "is no localization.csv: expected the header '" + std::string(known) + "'");
-  }
-  for (int line = 2; std::getline(in, text); ++line) {
-    if (datasets::trimmed(text).empty() || text[0] == '#') continue;
-    rows.push_back(read_row(RowReader(file, line, text)));
-    const std::size_t n = rows.size();
-    if (n > 1 && rows[n - 1].localization.time < rows[n - 2].localization.time) {
-      throw datasets::FormatError(file, line,
-                                  "the time is before that of the row above: expected rows in order of time");
-    }
-  }
+  for_each_row(file, kLocalizationHeader, [&](RowReader& read) {
+    rows.push_back(read_row(read));
+    return rows.back().localization.time;
+  });
   return rows;
+}
+
+std::vector<ExtendedRow> read_extended_localization(const std::filesystem::path& file,
+                                                    std::span<const std::string_view> more) {
+  std::vector<ExtendedRow> rows;
+  for_each_row(file, extended_header(more), [&](RowReader& read) {
+    LocalizationRow row = read_row(read);
+    rows.push_back({std::move(row), read.rest(more.size())});
+    return rows.back().row.localization.time;
+  });
+  return rows;
+}
+
+std::string extended_header(std::span<const std::string_view> more) {
+  std::string header(kLocalizationHeader.substr(0, kLocalizationHeader.size() - 1));
+  for (const std::string_view column : more) header.append(",").append(column);
+  return header + "\n";
+}
+
+std::string to_line(const ExtendedRow& row) {
+  std::string line = to_line(row.row);
+  line.pop_back();
+  for (const std::string& value : row.more) line.append(",").append(csv_quoted(value));
+  return line + "\n";
 }
 
 }  // namespace credo::results

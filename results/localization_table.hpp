@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,5 +30,19 @@ inline constexpr std::string_view kLocalizationHeader =
 /// \throws datasets::FormatError with file and line: a missing file, another header, a value that is not finite or
 /// cannot be (only protection levels may be nan), an unknown status, a time that decreases
 [[nodiscard]] std::vector<LocalizationRow> read_localization(const std::filesystem::path& file);
+
+/// A row of a table that begins with the columns of localization.csv and goes on with others.
+struct ExtendedRow {
+  LocalizationRow row;
+  std::vector<std::string> more;  ///< the others, as texts
+};
+
+/// The first line of such a table, with the line's end. \param more  names of the other columns
+[[nodiscard]] std::string extended_header(std::span<const std::string_view> more);
+/// A line, with the line's end.
+[[nodiscard]] std::string to_line(const ExtendedRow& row);
+/// Reads such a table. \throws datasets::FormatError as read_localization, and for a row without just these columns
+[[nodiscard]] std::vector<ExtendedRow> read_extended_localization(const std::filesystem::path& file,
+                                                                  std::span<const std::string_view> more);
 
 }  // namespace credo::results

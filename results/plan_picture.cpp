@@ -127,8 +127,8 @@ void draw_panel(Canvas& canvas, const Moment& moment, Point corner) {
   const auto say = [&](const char* format, auto... values) {
     char text[128];
     std::snprintf(text, sizeof text, format, values...);
-    constexpr double kHeight = 8.5;
-    canvas.text({corner.x(), y}, text, colors::kInk, kHeight * std::min(1.0, width / text_width(text, kHeight)));
+    constexpr double kText_px = 8.5;
+    canvas.text({corner.x(), y}, text, colors::kInk, kText_px * std::min(1.0, width / text_width(text, kText_px)));
     y += 19.0;
   };
   canvas.disc({corner.x() + 6.0, y - 4.5}, 6.0, color_of(l.status));

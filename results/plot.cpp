@@ -12,6 +12,10 @@ namespace credo::results {
 
 using Point = Canvas::Point;
 
+namespace {
+constexpr double kTitleHeight = 10.0, kLegendHeight = 8.0;  // of a capital letter
+}  // namespace
+
 std::vector<double> ticks(double low, double high, int wanted) {
   if (!(high > low) || !std::isfinite(high - low)) return {low};
   const double rough = (high - low) / std::max(1, wanted);
@@ -72,6 +76,7 @@ std::string size_text(double longer_m, double shorter_m) {
 struct Plot::Axes {
   double x0 = 0, x1 = 1, y0 = 0, y1 = 1;            // data
   double left = 0, right = 1, top = 0, bottom = 1;  // canvas
+  double title = 0;                                 // baseline
   [[nodiscard]] Point at(double x, double y) const {
     return {left + (x - x0) / (x1 - x0) * (right - left), bottom - (y - y0) / (y1 - y0) * (bottom - top)};
   }
@@ -94,6 +99,13 @@ Plot& Plot::band(std::vector<double> x, std::vector<double> low, std::vector<dou
   return *this;
 }
 
+Plot& Plot::whiskers(std::vector<double> x, std::vector<double> low, std::vector<double> high, Color color,
+                     std::string label, double thickness) {
+  series_.push_back(
+      {Kind::kWhiskers, std::move(x), std::move(low), std::move(high), color, std::move(label), thickness});
+  return *this;
+}
+
 Plot& Plot::level(double y, Color color, std::string label) {
   series_.push_back({Kind::kLevel, {}, {y}, {}, color, std::move(label)});
   return *this;
@@ -102,6 +114,11 @@ Plot& Plot::level(double y, Color color, std::string label) {
 Plot& Plot::strip(std::vector<double> x, std::vector<Color> colors) {
   strip_x_ = std::move(x);
   strip_colors_ = std::move(colors);
+  return *this;
+}
+
+Plot& Plot::x_limits(double low, double high) {
+  x_limits_ = {low, high};
   return *this;
 }
 
@@ -131,6 +148,13 @@ struct Range {
   }
 };
 
+void draw_whisker(Canvas& canvas, const Point& low, const Point& high, Color color, double thickness) {
+  const Point half_cap(3.0, 0.0);
+  canvas.line(low, high, color, thickness);
+  canvas.line(low - half_cap, low + half_cap, color, thickness);
+  canvas.line(high - half_cap, high + half_cap, color, thickness);
+}
+
 }  // namespace
 
 Plot::Axes Plot::fit(Point corner, Point opposite) const {
@@ -142,13 +166,15 @@ Plot::Axes Plot::fit(Point corner, Point opposite) const {
   }
   xs.include(strip_x_);
   Axes axes;
-  std::tie(axes.x0, axes.x1) = xs.widened(0.0);
+  std::tie(axes.x0, axes.x1) = x_limits_.empty() ? xs.widened(0.0) : std::pair{x_limits_[0], x_limits_[1]};
   std::tie(axes.y0, axes.y1) = y_limits_.empty() ? ys.widened(0.06) : std::pair{y_limits_[0], y_limits_[1]};
   if (!(axes.x1 > axes.x0)) axes.x1 = axes.x0 + 1.0;
   if (!(axes.y1 > axes.y0)) axes.y1 = axes.y0 + 1.0;
   axes.left = corner.x() + 66.0;
   axes.right = opposite.x() - 16.0;
+  axes.title = corner.y() + 25.0;
   axes.top = corner.y() + (title_.empty() ? 14.0 : 34.0);
+  if (text_width(title_, kTitleHeight) + legend_width() > axes.right - axes.left) axes.top += 18.0;
   axes.bottom = opposite.y() - (x_label_.empty() ? 24.0 : 42.0);
   return axes;
 }
@@ -169,8 +195,13 @@ void Plot::draw_series(Canvas& canvas, const Axes& axes, const Series& s) const 
     run_high.clear();
   };
   for (std::size_t i = 0; i < s.x.size(); ++i) {
-    if (!std::isfinite(s.y[i]) || (s.kind == Kind::kBand && !std::isfinite(s.high[i]))) {
+    const bool interval = s.kind == Kind::kBand || s.kind == Kind::kWhiskers;
+    if (!std::isfinite(s.y[i]) || (interval && !std::isfinite(s.high[i]))) {
       flush();
+      continue;
+    }
+    if (s.kind == Kind::kWhiskers) {
+      draw_whisker(canvas, axes.at(s.x[i], s.y[i]), axes.at(s.x[i], s.high[i]), s.color, s.size);
       continue;
     }
     if (s.kind == Kind::kPoints) {
@@ -195,16 +226,20 @@ void Plot::draw_strip(Canvas& canvas, const Axes& axes) const {
   }
 }
 
+double Plot::legend_width() const {
+  double width = 0.0;
+  for (const Series& s : series_) width += s.label.empty() ? 0.0 : text_width(s.label, kLegendHeight) + 32.0;
+  return width;
+}
+
 void Plot::draw_legend(Canvas& canvas, const Axes& axes) const {
   std::vector<LegendEntry> entries;
-  double width = 0.0;
   for (const Series& s : series_) {
     if (s.label.empty()) continue;
     entries.push_back(
         {s.kind == Kind::kBand ? mixed(colors::kPaper, s.color, std::max(0.3, s.opacity)) : s.color, s.label});
-    width += text_width(s.label, 8.0) + 32.0;
   }
-  legend(canvas, {axes.right - width + 12.0, axes.top - 9.0}, entries);
+  legend(canvas, {axes.right - legend_width() + 12.0, axes.top - 9.0}, entries, kLegendHeight);
 }
 
 void Plot::draw(Canvas& canvas, Point corner, Point opposite) const {
@@ -225,7 +260,7 @@ void Plot::draw(Canvas& canvas, Point corner, Point opposite) const {
   for (const double y : ys) {
     canvas.text({axes.left - 6.0, axes.at(0, y).y() + 4.0}, tick_label(y, y_step), colors::kInk, 8.0, Anchor::kRight);
   }
-  canvas.text({axes.left, axes.top - 9.0}, title_, colors::kInk, 10.0, Anchor::kLeft, 1.25);
+  canvas.text({axes.left, axes.title}, title_, colors::kInk, kTitleHeight, Anchor::kLeft, 1.25);
   canvas.text({0.5 * (axes.left + axes.right), axes.bottom + 33.0}, x_label_, colors::kInk, 8.5, Anchor::kCentre);
   canvas.text_upwards({corner.x() + 13.0, 0.5 * (axes.top + axes.bottom)}, y_label_, colors::kInk, 8.5);
   draw_legend(canvas, axes);

@@ -21,7 +21,8 @@ namespace credo::results {
 /// Two lengths in the unit of the longer one: "1.3 x 1.2 cm".
 [[nodiscard]] std::string size_text(double longer_m, double shorter_m);
 
-/// A chart: series over one axis, with frame, grid, ticks, labels and legend. Values that are not finite leave a gap.
+/// A chart: series over one axis, with frame, grid, ticks, labels and legend (beside the title, or below it where it is
+/// too long). Values that are not finite leave a gap.
 class Plot {
  public:
   Plot(std::string title, std::string x_label, std::string y_label)
@@ -33,17 +34,21 @@ class Plot {
   /// The area between two curves.
   Plot& band(std::vector<double> x, std::vector<double> low, std::vector<double> high, Color color,
              std::string label = "", double opacity = 0.25);
+  /// From low[i] to high[i] at x[i], with caps: an interval for each value.
+  Plot& whiskers(std::vector<double> x, std::vector<double> low, std::vector<double> high, Color color,
+                 std::string label = "", double thickness = 1.2);
   /// A horizontal line across.
   Plot& level(double y, Color color, std::string label = "");
   /// A coloured strip along the foot of the chart from x[i] to x[i + 1] (the last as long as the one before).
   Plot& strip(std::vector<double> x, std::vector<Color> colors);
+  Plot& x_limits(double low, double high);
   Plot& y_limits(double low, double high);
 
   /// Into a box of the canvas, labels included.
   void draw(Canvas& canvas, Canvas::Point corner, Canvas::Point opposite) const;
 
  private:
-  enum class Kind { kLine, kPoints, kBand, kLevel };
+  enum class Kind { kLine, kPoints, kBand, kWhiskers, kLevel };
   struct Series {
     Kind kind;
     std::vector<double> x, y, high;
@@ -56,6 +61,7 @@ class Plot {
 
   void draw_series(Canvas& canvas, const Axes& axes, const Series& series) const;
   void draw_legend(Canvas& canvas, const Axes& axes) const;
+  [[nodiscard]] double legend_width() const;
   void draw_strip(Canvas& canvas, const Axes& axes) const;
   [[nodiscard]] Axes fit(Canvas::Point corner, Canvas::Point opposite) const;
 
@@ -63,7 +69,7 @@ class Plot {
   std::vector<Series> series_;
   std::vector<double> strip_x_;
   std::vector<Color> strip_colors_;
-  std::vector<double> y_limits_;  // empty: from the series
+  std::vector<double> x_limits_, y_limits_;  // empty: from the series
 };
 
 }  // namespace credo::results

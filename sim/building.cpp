@@ -27,11 +27,11 @@ std::string printed(const Eigen::Vector2d& p) {
 
 }  // namespace
 
-int Builder::material(const std::string& name) const {
+int index_of_material(const World& world, const std::string& name) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < world_->materials.size(); ++i) {
-    if (world_->materials[i].name == name) return static_cast<int>(i);
-    names.push_back(world_->materials[i].name);
+  for (std::size_t i = 0; i < world.materials.size(); ++i) {
+    if (world.materials[i].name == name) return static_cast<int>(i);
+    names.push_back(world.materials[i].name);
   }
   const std::string near = nearest_word(name, names);
   throw std::invalid_argument("unknown material '" + name + "'" +
@@ -107,16 +107,19 @@ std::vector<int> Builder::faces_of(const Spot& spot, double width_m) const {
   return faces;
 }
 
-/// Leaves a hole of this width in a panel, with the wall above it.
-void Builder::cut(int index, const Spot& spot, double width_m, double height_m) {
+/// Leaves the hole of a door in a panel, with the wall above it.
+void Builder::cut(int index, const Spot& spot, const Door& door) {
   const Panel panel = world_->panels[static_cast<std::size_t>(index)];
   const Eigen::Vector2d along = (panel.b - panel.a).normalized();
   const double s = along.dot(spot.foot - panel.a);
-  const Eigen::Vector2d from = panel.a + (s - 0.5 * width_m) * along, to = panel.a + (s + 0.5 * width_m) * along;
+  const double half = 0.5 * door.width_m;
+  const Eigen::Vector2d from = panel.a + (s - half) * along, to = panel.a + (s + half) * along;
   world_->panels[static_cast<std::size_t>(index)].b = from;
   walls_.push_back(static_cast<int>(world_->panels.size()));
   world_->panels.push_back({to, panel.b, panel.z0_m, panel.z1_m, panel.material, panel.in_plan});
-  add_panel(from, to, height_m, panel.z1_m, panel.material, false);
+  add_panel(from, to, door.height_m, panel.z1_m, panel.material, false);
+  if (door.planned_closed)
+    world_->only_planned.push_back({from, to, 0.0, door.height_m, panel.material, panel.in_plan});
 }
 
 /// A thin strip on the wall, between two places along it.
@@ -145,11 +148,11 @@ void Builder::cut_opening(const Door& door, const Spot& spot) {
     const double off = across.dot(world_->panels[static_cast<std::size_t>(face)].a - spot.foot);
     low = std::min(low, off);
     high = std::max(high, off);
-    cut(face, spot, door.width_m, door.height_m);
+    cut(face, spot, door);
   }
   for (const double side : {-0.5, 0.5}) {
     const Eigen::Vector2d jamb = spot.foot + side * door.width_m * spot.along;
-    add_panel(jamb + low * across, jamb + high * across, 0.0, door.height_m, material("frame"), true);
+    add_panel(jamb + low * across, jamb + high * across, 0.0, door.height_m, material("frame"), !door.planned_closed);
   }
   for (const double off : {low, high}) {
     if (high - low < 1e-3) continue;
@@ -229,6 +232,13 @@ std::vector<Material> common_materials() {
                        .contrast = 0.8,
                        .infrared = 0.5,
                        .sonar_critical_rad = 0.7});
+  const auto cloth = [](const char* name, double albedo, double infrared) {
+    return Material{.name = name, .albedo = albedo, .infrared = infrared, .sonar_critical_rad = 0.7};
+  };
+  materials.push_back(cloth("dark_cloth", 0.08, 0.2));
+  materials.push_back(cloth("grey_cloth", 0.3, 0.45));
+  materials.push_back(cloth("bright_cloth", 0.75, 0.75));
+  materials.push_back(cloth("skin", 0.45, 0.5));
   materials.push_back({.name = "window", .albedo = 0.2, .emission = 1.6, .infrared = 0.1, .miss_share = 0.7});
   materials.push_back({.name = "glass", .albedo = 0.45, .infrared = 0.15, .miss_share = 0.7});
   return materials;

@@ -23,6 +23,7 @@ struct Door {
   double frame_m = 0.06;                          ///< width of the frame around it
   std::optional<double> leaf_rad = std::nullopt;  ///< of an opening: it stands open, on the side of `at`, at this angle
   std::string material = "door";
+  bool planned_closed = false;  ///< an opening that the floor plan does not show: there, the door is closed
 };
 
 /// A flat thing on a wall: a poster, a window, a board, a pipe, a step in the paint.
@@ -46,6 +47,9 @@ struct Fixture {
   bool in_plan = true;
   std::string material = "radiator";
 };
+
+/// The place of a material in World::materials. \throws std::invalid_argument  with the nearest known name
+[[nodiscard]] int index_of_material(const World& world, const std::string& name);
 
 /// A building drawn as an architect would, turned into panels: rooms by their inner faces, doors cut through whatever
 /// faces lie on both sides of a wall, things put on the nearest wall.
@@ -72,10 +76,10 @@ class Builder {
     int panel = 0;
     Eigen::Vector2d foot, along, away;
   };
-  [[nodiscard]] int material(const std::string& name) const;
+  [[nodiscard]] int material(const std::string& name) const { return index_of_material(*world_, name); }
   [[nodiscard]] Spot nearest_wall(const Eigen::Vector2d& at) const;
   [[nodiscard]] std::vector<int> faces_of(const Spot& spot, double width_m) const;
-  void cut(int panel, const Spot& spot, double width_m, double height_m);
+  void cut(int panel, const Spot& spot, const Door& door);
   void cut_opening(const Door& door, const Spot& spot);
   void put_on(const Spot& spot, double from, double to, double z0_m, double z1_m, double off_m, int material);
   void add_frame(const Spot& spot, const Door& door);

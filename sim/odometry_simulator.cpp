@@ -15,7 +15,7 @@ constexpr double kHalf = 1.0 / std::numbers::sqrt2;  // of the standard deviatio
 }  // namespace
 
 OdometrySimulator::OdometrySimulator(const sensors::OdometryNoise& noise, std::uint64_t seed)
-    : noise_(noise), random_(seed, kOdometryStream) {
+    : noise_(noise), random_(seed, kOdometryStream), extra_(seed, kOdometryStream, 1) {
   const auto draw = [this](double sigma) {
     return Error{random_.normal(kHalf * sigma), random_.normal(kHalf * sigma)};
   };
@@ -24,7 +24,9 @@ OdometrySimulator::OdometrySimulator(const sensors::OdometryNoise& noise, std::u
   turning_ = draw(noise.rotation_per_radian);
 }
 
-geometry::Pose2 OdometrySimulator::advance(const geometry::Pose2& T_from_to) {
+geometry::Pose2 OdometrySimulator::advance(const geometry::Pose2& T_from_to, const Condition& condition,
+                                           double slip_m) {
+  if (slip_m != 0.0) T_odom_base_ = T_odom_base_ * geometry::Pose2{slip_m, 0.0, 0.0};
   const double way = std::hypot(T_from_to.x, T_from_to.y), turn = T_from_to.theta;
   if (way == 0.0 && turn == 0.0) return T_odom_base_;
   // First-order Gauss-Markov over the way driven; a radian on the spot wanders like half a metre.
@@ -36,9 +38,16 @@ geometry::Pose2 OdometrySimulator::advance(const geometry::Pose2& T_from_to) {
   wander(translation_, noise_.translation_per_metre);
   wander(rotation_, noise_.rotation_per_metre);
   wander(turning_, noise_.rotation_per_radian);
-  const double scale = 1.0 + translation_.value();
-  T_odom_base_ = T_odom_base_ * geometry::Pose2{scale * T_from_to.x, scale * T_from_to.y,
-                                                turn + rotation_.value() * way + turning_.value() * turn};
+  const double scale = condition.scale * (1.0 + translation_.value());
+  geometry::Pose2 counted{scale * T_from_to.x, scale * T_from_to.y,
+                          turn + rotation_.value() * way + turning_.value() * turn};
+  if (const double more = condition.noise_beyond_usual(); more > 0.0) {
+    // Independent from piece to piece, so that the variance grows with the way.
+    counted.x += extra_.normal(more * noise_.translation_per_metre * std::sqrt(way));
+    counted.theta += extra_.normal(
+        more * (noise_.rotation_per_metre * std::sqrt(way) + noise_.rotation_per_radian * std::sqrt(std::abs(turn))));
+  }
+  T_odom_base_ = T_odom_base_ * counted;
   return T_odom_base_;
 }
 

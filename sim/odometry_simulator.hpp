@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "sensors/odometry.hpp"
+#include "sim/failures.hpp"
 #include "sim/random.hpp"
 
 namespace credo::sim {
@@ -17,7 +18,9 @@ class OdometrySimulator {
   OdometrySimulator(const sensors::OdometryNoise& noise, std::uint64_t seed);
 
   /// The odometry's pose after the true motion T_from_to; starts at the identity.
-  geometry::Pose2 advance(const geometry::Pose2& T_from_to);
+  /// \param condition  of the wheels: `noise` adds to the errors, `scale` is of the way counted
+  /// \param slip_m     way that the wheels turned and the robot did not go
+  geometry::Pose2 advance(const geometry::Pose2& T_from_to, const Condition& condition = {}, double slip_m = 0.0);
 
  private:
   struct Error {
@@ -25,7 +28,7 @@ class OdometrySimulator {
     [[nodiscard]] double value() const { return fixed + wandering; }
   };
   sensors::OdometryNoise noise_;
-  Random random_;
+  Random random_, extra_;
   Error translation_, rotation_, turning_;
   geometry::Pose2 T_odom_base_;
 };

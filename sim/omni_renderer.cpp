@@ -193,9 +193,10 @@ float OmniRenderer::refined(const PanelView& view, std::size_t corner, std::uint
 }
 
 /// Adds the radiance of the scene to `sum`, pixel by pixel: one ray per pixel corner, nine where the corners disagree.
-void OmniRenderer::add_scene(const geometry::Pose2& T_map_base, Workspace& workspace, cv::Mat& sum) const {
+void OmniRenderer::add_scene(const geometry::Pose2& T_map_base, std::span<const Panel> passing, Workspace& workspace,
+                             cv::Mat& sum) const {
   const sensors::OmniCamera& camera = setup_->camera;
-  workspace.view.look_from(T_map_base * T_base_camera_, camera.height_m);
+  workspace.view.look_from(T_map_base * T_base_camera_, camera.height_m, passing);
   const auto width = static_cast<std::size_t>(camera.width_px), height = static_cast<std::size_t>(camera.height_px);
   const std::size_t stride = width + 1;
   workspace.corners.resize(stride * (height + 1));
@@ -235,13 +236,16 @@ void OmniRenderer::add_glare(cv::Mat& image) const {
   cv::scaleAdd(excess, 10.0 * world_->nuisances.glare, image, image);
 }
 
-cv::Mat OmniRenderer::render_ideal(std::span<const geometry::Pose2> T_map_base, Workspace& workspace) const {
+cv::Mat OmniRenderer::render_ideal(std::span<const geometry::Pose2> T_map_base, Workspace& workspace,
+                                   const Exposure& exposure) const {
   cv::Mat& image = workspace.image;
   image.create(gain_.size(), CV_32FC1);
   image.setTo(0.0);
-  for (const geometry::Pose2& pose : T_map_base) add_scene(pose, workspace, image);
-  cv::multiply(image, gain_, image, 1.0 / static_cast<double>(T_map_base.size()));
-  image += base_;
+  if (exposure.light > 0.0)
+    for (const geometry::Pose2& pose : T_map_base) add_scene(pose, exposure.passing, workspace, image);
+  cv::multiply(image, gain_, image, exposure.light / static_cast<double>(T_map_base.size()));
+  cv::scaleAdd(base_, exposure.light, image, image);
+  image += (1.0 - exposure.light) * kDark_grey;
   if (world_->nuisances.blur_px > 0.0) {
     const int size = 2 * static_cast<int>(std::ceil(3.5 * world_->nuisances.blur_px)) + 1;
     cv::GaussianBlur(image, image, {size, size}, world_->nuisances.blur_px, 0.0, cv::BORDER_REPLICATE);
@@ -250,12 +254,13 @@ cv::Mat OmniRenderer::render_ideal(std::span<const geometry::Pose2> T_map_base, 
   return image;
 }
 
-cv::Mat OmniRenderer::render(std::span<const geometry::Pose2> T_map_base, std::uint64_t index,
-                             Workspace& workspace) const {
-  return expose(render_ideal(T_map_base, workspace), index);
+cv::Mat OmniRenderer::render(std::span<const geometry::Pose2> T_map_base, std::uint64_t index, Workspace& workspace,
+                             const Exposure& exposure) const {
+  return expose(render_ideal(T_map_base, workspace, exposure), index, exposure.noise);
 }
 
-cv::Mat OmniRenderer::expose(const cv::Mat& mean, std::uint64_t index) const {
+cv::Mat OmniRenderer::expose(const cv::Mat& mean, std::uint64_t index, double noise) const {
+  const float factor = static_cast<float>(noise);
   cv::Mat image(mean.size(), CV_8UC1);
   Random random(seed_, kImageStream, index);
   constexpr std::uint64_t kMask = (1U << kNoiseBits) - 1;
@@ -270,7 +275,7 @@ cv::Mat OmniRenderer::expose(const cv::Mat& mean, std::uint64_t index) const {
         left = 4;
       }
       const float level = std::clamp(in[u], 0.0F, 255.0F);
-      const float value = in[u] + noise_sigma_[static_cast<std::size_t>(level)] * noise_[bits & kMask];
+      const float value = in[u] + factor * noise_sigma_[static_cast<std::size_t>(level)] * noise_[bits & kMask];
       out[u] = static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
       bits >>= kNoiseBits;
       --left;

@@ -39,18 +39,34 @@ class OmniRenderer {
     cv::Mat image;               ///< CV_32FC1, mean grey levels
   };
 
+  /// What differs from image to image besides the pose.
+  struct Exposure {
+    double light = 1.0;                   ///< that reaches the sensor, of the usual; 0: the lens is covered
+    double noise = 1.0;                   ///< of the usual
+    std::span<const Panel> passing = {};  ///< what is there besides the world's panels: people
+  };
+
   /// The image, CV_8UC1, that the camera takes while the robot base moves through `T_map_base` (at least one pose,
   /// equally spaced over the exposure). \param index  of the image: selects its noise
+  [[nodiscard]] cv::Mat render(std::span<const geometry::Pose2> T_map_base, std::uint64_t index, Workspace& workspace,
+                               const Exposure& exposure) const;
   [[nodiscard]] cv::Mat render(std::span<const geometry::Pose2> T_map_base, std::uint64_t index,
-                               Workspace& workspace) const;
+                               Workspace& workspace) const {
+    return render(T_map_base, index, workspace, Exposure{});
+  }
 
   /// What `render` would give without noise and quantisation, not cut off at white: mean grey levels, CV_32FC1.
-  [[nodiscard]] cv::Mat render_ideal(std::span<const geometry::Pose2> T_map_base, Workspace& workspace) const;
+  [[nodiscard]] cv::Mat render_ideal(std::span<const geometry::Pose2> T_map_base, Workspace& workspace,
+                                     const Exposure& exposure) const;
+  [[nodiscard]] cv::Mat render_ideal(std::span<const geometry::Pose2> T_map_base, Workspace& workspace) const {
+    return render_ideal(T_map_base, workspace, Exposure{});
+  }
 
-  /// Vertical edges in view, by azimuth: of every panel's ends and every step of its pattern, what an ideal camera at
-  /// the true place sees of it on `kRows` circles, with a contrast of at least `kFaintest_grey` on 5 % of them. Edges
-  /// closer together than 0.15 degrees count as one.
-  [[nodiscard]] std::vector<TrueVertical> true_verticals(const geometry::Pose2& T_map_base, Workspace& workspace) const;
+  /// Vertical edges in view, by azimuth: of every panel's ends, people's included, and every step of its pattern, what
+  /// an ideal camera at the true place sees of it on `kRows` circles, with a contrast of at least `kFaintest_grey` on 5
+  /// % of them. Edges closer together than 0.15 degrees count as one.
+  [[nodiscard]] std::vector<TrueVertical> true_verticals(const geometry::Pose2& T_map_base, Workspace& workspace,
+                                                         std::span<const Panel> passing = {}) const;
 
   /// The camera as it really is.
   [[nodiscard]] const ConicOptics& optics() const { return optics_; }
@@ -64,11 +80,12 @@ class OmniRenderer {
   void make_ray_table();
   void make_static_image(std::uint64_t seed);
   void make_noise_table();
-  void add_scene(const geometry::Pose2& T_map_base, Workspace& workspace, cv::Mat& sum) const;
+  void add_scene(const geometry::Pose2& T_map_base, std::span<const Panel> passing, Workspace& workspace,
+                 cv::Mat& sum) const;
   [[nodiscard]] float radiance(const PanelView& view, const float ray[4], std::uint16_t bin) const;
   [[nodiscard]] float refined(const PanelView& view, std::size_t corner, std::uint16_t bin) const;
   void add_glare(cv::Mat& image) const;
-  [[nodiscard]] cv::Mat expose(const cv::Mat& mean, std::uint64_t index) const;
+  [[nodiscard]] cv::Mat expose(const cv::Mat& mean, std::uint64_t index, double noise) const;
 
   const World* world_;
   const CameraSetup* setup_;

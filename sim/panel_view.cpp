@@ -53,7 +53,7 @@ std::uint16_t PanelView::bin_of(double azimuth) {
   return static_cast<std::uint16_t>(std::min(static_cast<int>((turns - std::floor(turns)) * kBins), kBins - 1));
 }
 
-void PanelView::look_from(const geometry::Pose2& T_map_camera, double height_m) {
+void PanelView::look_from(const geometry::Pose2& T_map_camera, double height_m, std::span<const Panel> passing) {
   x_ = static_cast<float>(T_map_camera.x);
   y_ = static_cast<float>(T_map_camera.y);
   cos_ = static_cast<float>(std::cos(T_map_camera.theta));
@@ -62,16 +62,19 @@ void PanelView::look_from(const geometry::Pose2& T_map_camera, double height_m) 
   placed_.clear();
   entries_.clear();
   const geometry::Pose2 T_camera_map = T_map_camera.inverse();
-  for (std::size_t i = 0; i < world_->panels.size(); ++i) {
-    const Panel& panel = world_->panels[i];
-    const Eigen::Vector2f a = (T_camera_map * panel.a).cast<float>();
-    const Eigen::Vector2f e = (T_camera_map.rotation() * (panel.b - panel.a)).cast<float>();
-    const bool full = panel.z0_m <= 0.0 && panel.z1_m >= world_->ceiling_m;
-    placed_.push_back({a.x(), a.y(), e.x(), e.y(), static_cast<float>(panel.z0_m), static_cast<float>(panel.z1_m),
-                       e.norm(), facing_light(panel.b - panel.a, world_->light_rad), static_cast<int>(i), full});
-    enter(static_cast<int>(i));
-  }
+  for (const Panel& panel : world_->panels) place(panel, T_camera_map);
+  for (const Panel& panel : passing) place(panel, T_camera_map);
   sort_bins();
+}
+
+void PanelView::place(const Panel& panel, const geometry::Pose2& T_camera_map) {
+  const int index = static_cast<int>(placed_.size());
+  const Eigen::Vector2f a = (T_camera_map * panel.a).cast<float>();
+  const Eigen::Vector2f e = (T_camera_map.rotation() * (panel.b - panel.a)).cast<float>();
+  const bool full = panel.z0_m <= 0.0 && panel.z1_m >= world_->ceiling_m;
+  placed_.push_back({a.x(), a.y(), e.x(), e.y(), static_cast<float>(panel.z0_m), static_cast<float>(panel.z1_m),
+                     e.norm(), facing_light(panel.b - panel.a, world_->light_rad), index, panel.material, full});
+  enter(index);
 }
 
 /// Finds the bins, widened by the slack on either side, in which a panel can be met, and between which distances.
@@ -165,9 +168,8 @@ float PanelView::radiance(const SurfaceHit& hit, const LightMap& light, const fl
   if (hit.panel == SurfaceHit::kCeiling)
     return under_a_lamp(world_->lamps, x, y) ? static_cast<float>(world_->lamps.emission) : 0.62F * brightness;
   if (hit.panel == SurfaceHit::kFloor) return 0.6F * floor_albedo(*world_, x, y) * brightness;
-  const Panel& panel = world_->panels[static_cast<std::size_t>(hit.panel)];
-  const Material& material = world_->materials[static_cast<std::size_t>(panel.material)];
   const Placed& p = placed_[static_cast<std::size_t>(hit.panel)];
+  const Material& material = world_->materials[static_cast<std::size_t>(p.material)];
   // A pixel is as wide as the ray's direction is long for its radius: t wide at the hit, and wider on a slanting wall.
   const float slant = std::abs(cross(direction[0], direction[1], p.ex, p.ey));
   const float length = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1]);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "geometry/pose.hpp"
@@ -19,7 +20,7 @@ struct SurfaceHit {
   static constexpr int kCeiling = -2;
   static constexpr int kNothing = -3;
 
-  int panel = kNothing;
+  int panel = kNothing;                              ///< index into World::panels, and on into those that pass
   float t = std::numeric_limits<float>::infinity();  ///< of the ray
   float along_m = 0.0F;                              ///< from the panel's start
   float z_m = 0.0F;                                  ///< height above the floor
@@ -33,7 +34,8 @@ class PanelView {
 
   /// \param T_map_camera  pose of the camera frame
   /// \param height_m      of the frame's origin above the floor
-  void look_from(const geometry::Pose2& T_map_camera, double height_m);
+  /// \param passing       panels that are there besides the world's: people
+  void look_from(const geometry::Pose2& T_map_camera, double height_m, std::span<const Panel> passing = {});
 
   /// The bin of a horizontal direction of the camera frame.
   [[nodiscard]] static std::uint16_t bin_of(double azimuth);
@@ -55,6 +57,7 @@ class PanelView {
     float length;
     float facing;  // 0..1
     int panel;
+    int material;
     bool full_height;
   };
   struct Entry {
@@ -63,6 +66,7 @@ class PanelView {
     float nearest, farthest;
     bool covers;  // the whole bin, from floor to ceiling
   };
+  void place(const Panel& panel, const geometry::Pose2& T_camera_map);
   void enter(int placed);
   void sort_bins();
 

@@ -70,14 +70,6 @@ bool far_apart(const Segment& s, const Segment& t, double margin_m) {
   return gap(s.a.x(), s.b.x(), t.a.x(), t.b.x()) > margin_m || gap(s.a.y(), s.b.y(), t.a.y(), t.b.y()) > margin_m;
 }
 
-double height_of_robot(const World& world) {
-  double height = 0.0;
-  if (world.camera) height = world.camera->camera.height_m;
-  for (const RangeFinderSetup& setup : world.range_finders) height = std::max(height, setup.finder.height_m);
-  for (const SonarSetup& setup : world.sonars) height = std::max(height, setup.ring.height_m);
-  return height;
-}
-
 /// Inside of a polygon, or at most `margin_m` outside.
 bool within(const std::vector<Point>& polygon, const Point& p, double margin_m) {
   bool inside = false;
@@ -135,6 +127,14 @@ std::optional<Obstruction> find_place_outside(const World& world, const Trajecto
 }
 
 }  // namespace
+
+double height_of_robot(const World& world) {
+  double height = 0.0;
+  if (world.camera) height = world.camera->camera.height_m;
+  for (const RangeFinderSetup& setup : world.range_finders) height = std::max(height, setup.finder.height_m);
+  for (const SonarSetup& setup : world.sonars) height = std::max(height, setup.ring.height_m);
+  return height;
+}
 
 std::optional<Obstruction> find_obstruction(const World& world, const Trajectory& way) {
   constexpr double kTouch_m = 1e-6;

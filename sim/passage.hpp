@@ -12,6 +12,9 @@
 
 namespace credo::sim {
 
+/// How tall the robot is: as its highest sensor. [m]
+[[nodiscard]] double height_of_robot(const World& world);
+
 /// Where the way of a robot cannot be driven, and why.
 struct Obstruction {
   std::size_t waypoint = 0;  ///< index into World::path: the one that cannot be reached, or not be stood on

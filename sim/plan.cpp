@@ -94,11 +94,13 @@ geometry::FloorPlan draw_floor_plan(const World& world, double height_m, std::ui
   Junctions junctions(world.plan_uncertainty_m, seed);
   geometry::FloorPlan plan;
   plan.uncertainty_m = world.plan_uncertainty_m;
-  for (const Panel& panel : world.panels)
-    if (panel.in_plan && spans(panel, height_m)) {
-      const Eigen::Vector2d a = junctions.drawn(panel.a);
-      plan.walls.push_back({a, junctions.drawn(panel.b)});
-    }
+  const auto draw = [&](const Panel& panel) {
+    if (!panel.in_plan || !spans(panel, height_m)) return;
+    const Eigen::Vector2d a = junctions.drawn(panel.a);
+    plan.walls.push_back({a, junctions.drawn(panel.b)});
+  };
+  std::for_each(world.panels.begin(), world.panels.end(), draw);
+  std::for_each(world.only_planned.begin(), world.only_planned.end(), draw);
   for (const Eigen::Vector2d& mark : world.marks) plan.verticals.push_back(junctions.drawn(mark));
   return plan;
 }

@@ -87,6 +87,17 @@ RangeFinderSetup range_finder_preset(const std::string& name) {
   unknown(name, known);
 }
 
+void state_accuracy(World& world) {
+  const Nuisances& n = world.nuisances;
+  const sensors::CalibrationAccuracy accuracy{.x_m = n.mounting_m,
+                                              .y_m = n.mounting_m,
+                                              .theta_rad = n.mounting_rad,
+                                              .center_px = n.center_px,
+                                              .tilt_rad = n.tilt_rad};
+  if (world.camera) world.camera->camera.accuracy = accuracy;
+  for (RangeFinderSetup& setup : world.range_finders) setup.finder.accuracy = accuracy;
+}
+
 SonarSetup sonar_preset(const std::string& name) {
   if (name != "pioneer-16") unknown(name, {"pioneer-16"});
   SonarSetup setup;

@@ -16,4 +16,7 @@ namespace credo::sim {
 [[nodiscard]] RangeFinderSetup range_finder_preset(const std::string& name);
 [[nodiscard]] SonarSetup sonar_preset(const std::string& name);
 
+/// What the robot is told of the calibration is how large its errors really are.
+void state_accuracy(World& world);
+
 }  // namespace credo::sim

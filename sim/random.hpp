@@ -57,6 +57,10 @@ enum Stream : std::uint64_t {
   kPixelStream,
   kImageStream,
   kDustStream,
+  kClutterStream,
+  kPeopleStream,
+  kBuildingStream,
+  kDegradationStream,
   kScanStream = 100,  ///< + index of the range finder
   kSonarStream = 200  ///< + index of the ring
 };

@@ -33,17 +33,32 @@ RangeSimulator::RangeSimulator(const World& world, const RangeFinderSetup& setup
 }
 
 sensors::RangeScan RangeSimulator::scan(sensors::Timestamp time,
-                                        const std::function<geometry::Pose2(double)>& T_map_base,
-                                        std::uint64_t index) const {
+                                        const std::function<geometry::Pose2(double)>& T_map_base, std::uint64_t index,
+                                        const std::function<std::vector<Disc>(double)>& people,
+                                        const Condition& condition) const {
   const sensors::RangeFinder& finder = setup_->finder;
-  Random random(seed_, kScanStream + static_cast<std::uint64_t>(sensor_), index);
+  const std::uint64_t stream = kScanStream + static_cast<std::uint64_t>(sensor_);
+  Random random(seed_, stream, index), extra(mix_bits(seed_), stream, index);
   sensors::RangeScan scan{.time = time, .sensor = sensor_, .ranges_m = {}};
   scan.ranges_m.reserve(static_cast<std::size_t>(finder.count));
   for (int beam = 0; beam < finder.count; ++beam) {
-    const geometry::Pose2 T_map_sensor = T_map_base(finder.beam_time(beam)) * T_base_sensor_;
-    scan.ranges_m.push_back(reading(T_map_sensor.translation(), T_map_sensor.theta + finder.beam_angle(beam), random));
+    const double later_s = finder.beam_time(beam);
+    const geometry::Pose2 T_map_sensor = T_map_base(later_s) * T_base_sensor_;
+    const std::vector<Disc> passing = people ? people(later_s) : std::vector<Disc>{};
+    // A scan that is turned one way shows what the beams meet that point the other way.
+    const double angle = T_map_sensor.theta + finder.beam_angle(beam) - condition.turn_rad;
+    scan.ranges_m.push_back(worsened(reading(T_map_sensor.translation(), angle, random, passing), condition, extra));
   }
   return scan;
+}
+
+float RangeSimulator::worsened(float range, const Condition& condition, Random& random) const {
+  const sensors::RangeFinder& finder = setup_->finder;
+  if (!std::isfinite(range)) return range;
+  const double more = condition.noise_beyond_usual() * finder.noise.sigma(range);
+  const double said = condition.scale * range + condition.offset_m + (more > 0.0 ? random.normal(more) : 0.0);
+  if (said < finder.range_min_m) return kNan;
+  return said > finder.range_max_m ? kNoReturn_m : static_cast<float>(said);
 }
 
 /// Too little light comes back, softly around the threshold; or the surface swallows it.
@@ -69,12 +84,25 @@ double RangeSimulator::measured(const Spot& spot, Random& random) const {
   return range + bias_per_m_ * spot.range_m * spot.range_m + random.normal(noise.sigma_0_m);
 }
 
-float RangeSimulator::reading(const Eigen::Vector2d& origin, double angle, Random& random) const {
+/// Of the building or of somebody in it.
+std::optional<RangeSimulator::Echo> RangeSimulator::first_surface(const Eigen::Vector2d& from,
+                                                                  const Eigen::Vector2d& direction,
+                                                                  std::span<const Disc> people) const {
+  const double reach = 1.2 * setup_->finder.range_max_m;
+  const std::optional<RayHit> wall = caster_.cast(from, direction, reach);
+  if (const auto person = first_hit(people, from, direction, wall ? wall->range_m : reach))
+    return Echo{person->range_m, person->cos_incidence, &world_->materials[static_cast<std::size_t>(person->material)]};
+  if (!wall) return std::nullopt;
+  const Panel& panel = world_->panels[static_cast<std::size_t>(wall->panel)];
+  return Echo{wall->range_m, wall->cos_incidence, &world_->materials[static_cast<std::size_t>(panel.material)]};
+}
+
+float RangeSimulator::reading(const Eigen::Vector2d& origin, double angle, Random& random,
+                              std::span<const Disc> people) const {
   const sensors::RangeFinder& finder = setup_->finder;
   if (random.chance(kBrokenShare)) return kNan;
   if (random.chance(setup_->outlier_share))
     return static_cast<float>(random.uniform(finder.range_min_m, finder.range_max_m));
-  const double reach = 1.2 * finder.range_max_m;
   // The two halves of the light spot: on an edge they lie on different surfaces.
   Spot halves[2];
   const Material* material = nullptr;
@@ -83,13 +111,12 @@ float RangeSimulator::reading(const Eigen::Vector2d& origin, double angle, Rando
     const double spread = angle + side * setup_->spot_rad;
     const Eigen::Vector2d direction(std::cos(spread), std::sin(spread));
     const Eigen::Vector2d from = origin + side * setup_->spot_m * Eigen::Vector2d(-direction.y(), direction.x());
-    const std::optional<RayHit> hit = caster_.cast(from, direction, reach);
+    const std::optional<Echo> hit = first_surface(from, direction, people);
     if (!hit) {
-      halves[i] = {reach, 0.0};
+      halves[i] = {1.2 * finder.range_max_m, 0.0};
       continue;
     }
-    const Panel& panel = world_->panels[static_cast<std::size_t>(hit->panel)];
-    material = &world_->materials[static_cast<std::size_t>(panel.material)];
+    material = hit->material;
     halves[i] = {hit->range_m,
                  0.5 * material->infrared * hit->cos_incidence / std::max(hit->range_m * hit->range_m, 1e-4)};
   }

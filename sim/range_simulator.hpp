@@ -5,8 +5,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "sensors/acquisition.hpp"
+#include "sim/crowd.hpp"
+#include "sim/failures.hpp"
 #include "sim/random.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/world.hpp"
@@ -22,13 +27,18 @@ class RangeSimulator {
   RangeSimulator(const World& world, const RangeFinderSetup& setup, int sensor, std::uint64_t seed);
 
   /// \param T_map_base  the true pose at a number of seconds from the scan's timestamp: beams are taken one after
-  /// another \param index       of the scan: selects its noise
+  ///   another
+  /// \param index       of the scan: selects its noise
+  /// \param people      who stands where at such a time, cut at the height of the range finder; nobody where it is empty
+  /// \param condition   of the range finder
   [[nodiscard]] sensors::RangeScan scan(sensors::Timestamp time,
-                                        const std::function<geometry::Pose2(double)>& T_map_base,
-                                        std::uint64_t index) const;
+                                        const std::function<geometry::Pose2(double)>& T_map_base, std::uint64_t index,
+                                        const std::function<std::vector<Disc>(double)>& people = {},
+                                        const Condition& condition = {}) const;
 
   /// One reading along a unit direction. [m]
-  [[nodiscard]] float reading(const Eigen::Vector2d& origin, double angle, Random& random) const;
+  [[nodiscard]] float reading(const Eigen::Vector2d& origin, double angle, Random& random,
+                              std::span<const Disc> people = {}) const;
 
   [[nodiscard]] const geometry::Pose2& T_base_sensor() const { return T_base_sensor_; }
 
@@ -36,6 +46,13 @@ class RangeSimulator {
   struct Spot {
     double range_m, light;
   };
+  struct Echo {
+    double range_m, cos_incidence;
+    const Material* material;
+  };
+  [[nodiscard]] std::optional<Echo> first_surface(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
+                                                  std::span<const Disc> people) const;
+  [[nodiscard]] float worsened(float range, const Condition& condition, Random& random) const;
   [[nodiscard]] bool is_lost(double light, const Material& material, Random& random) const;
   [[nodiscard]] double measured(const Spot& spot, Random& random) const;
 

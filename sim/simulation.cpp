@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
+#include "sim/clutter.hpp"
+#include "sim/crowd.hpp"
+#include "sim/failures.hpp"
 #include "sim/odometry_simulator.hpp"
 #include "sim/omni_renderer.hpp"
 #include "sim/passage.hpp"
@@ -24,7 +28,7 @@ using sensors::Timestamp;
 
 constexpr Timestamp kStart = 1'600'000'000'000'000'000;  // ns
 constexpr double kSharpEnough_px = 1.0;                  // motion during the exposure between two rendered poses
-constexpr int kMostExposures = 4;
+constexpr int kMostExposures = 16;
 constexpr double kNearestWall_m = 1.0;  // for judging motion blur
 constexpr std::size_t kBatch = 16;      // images rendered before they are delivered
 
@@ -34,8 +38,18 @@ struct Reading {
   Timestamp time;
   Kind kind;
   int sensor;
-  std::uint64_t index;  ///< of the sensor's readings
+  std::uint64_t index;  ///< of the sensor's readings, or of the events
+  Timestamp taken;      ///< when what it says was so: earlier than its time where the sensor is frozen
 };
+
+std::string sensor_name(Reading::Kind kind, int sensor) {
+  switch (kind) {
+    case Reading::Kind::kImage: return "camera0";
+    case Reading::Kind::kScan: return "range" + std::to_string(sensor);
+    case Reading::Kind::kSonar: return "sonar" + std::to_string(sensor);
+    default: return "odometry0";
+  }
+}
 
 Timestamp stamp(double seconds) { return kStart + sensors::from_seconds(seconds); }
 double seconds_of(Timestamp time) { return sensors::seconds_between(kStart, time); }
@@ -48,7 +62,8 @@ void schedule(const Trajectory& way, double rate_hz, double phase, Reading::Kind
     for (int i = 0; (i + phase) / rate_hz < way.duration_s(); ++i) times.push_back((i + phase) / rate_hz);
   else
     times = way.stops();
-  for (std::size_t i = 0; i < times.size(); ++i) readings.push_back({stamp(times[i]), kind, sensor, i});
+  for (std::size_t i = 0; i < times.size(); ++i)
+    readings.push_back({stamp(times[i]), kind, sensor, i, stamp(times[i])});
 }
 
 /// \throws std::invalid_argument where a simulation would go on for days
@@ -74,13 +89,43 @@ Trajectory drivable(const World& world) {
   return way;
 }
 
-std::vector<Reading> schedule_all(const World& world, const Trajectory& way, std::uint64_t seed) {
+const char* const kKidnapped = "kidnapped";
+
+/// By time.
+std::vector<Event> all_events(const World& world, const Trajectory& way) {
+  std::vector<Event> events;
+  if (world.people > 0) events.push_back({0.0, "people"});
+  for (const double when : way.carried()) events.push_back({when, kKidnapped});
+  for (Event& event : failure_events(world))
+    if (event.seconds < way.duration_s()) events.push_back(std::move(event));
+  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.seconds < b.seconds; });
+  return events;
+}
+
+/// A frozen sensor says again what it said last, with the same noise.
+void freeze(const World& world, std::vector<Reading>& readings) {
+  std::map<std::string, Reading> last;
+  for (Reading& reading : readings) {
+    if (reading.kind == Reading::Kind::kEvent) continue;
+    const std::string sensor = sensor_name(reading.kind, reading.sensor);
+    const auto before = last.find(sensor);
+    if (before != last.end() && condition_of(world, sensor, seconds_of(reading.time)).frozen) {
+      reading.taken = before->second.taken;
+      reading.index = before->second.index;
+    } else {
+      last.insert_or_assign(sensor, reading);
+    }
+  }
+}
+
+std::vector<Reading> schedule_all(const World& world, const Trajectory& way, const std::vector<Event>& events,
+                                  std::uint64_t seed) {
   check_number_of_readings(world, way);
   std::vector<Reading> readings;
   Random random(seed, kStartStream, 1);
   using Kind = Reading::Kind;
-  for (std::size_t i = 0; i < way.carried().size(); ++i)
-    readings.push_back({stamp(way.carried()[i]), Kind::kEvent, 0, i});
+  for (std::size_t i = 0; i < events.size(); ++i)
+    readings.push_back({stamp(events[i].seconds), Kind::kEvent, 0, i, stamp(events[i].seconds)});
   if (world.camera) schedule(way, world.camera->rate_hz, random.uniform(), Kind::kImage, 0, readings);
   for (std::size_t i = 0; i < world.range_finders.size(); ++i)
     schedule(way, world.range_finders[i].rate_hz, random.uniform(), Kind::kScan, static_cast<int>(i), readings);
@@ -90,6 +135,7 @@ std::vector<Reading> schedule_all(const World& world, const Trajectory& way, std
   std::stable_sort(readings.begin(), readings.end(), [](const Reading& a, const Reading& b) {
     return a.time != b.time ? a.time < b.time : a.kind < b.kind;
   });
+  if (!world.failures.empty()) freeze(world, readings);
   return readings;
 }
 
@@ -105,10 +151,10 @@ sensors::Rig calibrated_rig(const World& world) {
 std::optional<geometry::PoseEstimate> told_start(const World& world, const geometry::Pose2& truth, std::uint64_t seed) {
   if (!world.initial_pose_known) return std::nullopt;
   Random random(seed, kStartStream);
-  const auto& sigma = world.initial_pose_sigma;
+  const auto &sigma = world.initial_pose_sigma, &offset = world.initial_pose_offset;
   geometry::PoseEstimate estimate;
-  estimate.pose = {truth.x + random.normal(sigma[0]), truth.y + random.normal(sigma[1]),
-                   geometry::wrap_angle(truth.theta + random.normal(sigma[2]))};
+  estimate.pose = {truth.x + offset[0] + random.normal(sigma[0]), truth.y + offset[1] + random.normal(sigma[1]),
+                   geometry::wrap_angle(truth.theta + offset[2] + random.normal(sigma[2]))};
   for (int i = 0; i < 3; ++i)
     estimate.covariance(i, i) = sigma[static_cast<std::size_t>(i)] * sigma[static_cast<std::size_t>(i)];
   return estimate;
@@ -124,8 +170,24 @@ World checked(World world) {
   if (!world.camera && world.range_finders.empty() && world.sonars.empty())
     throw std::invalid_argument("the robot needs a camera, a range finder or a sonar ring");
   if (world.panels.empty()) throw std::invalid_argument("the world has no walls");
+  check_failures(world);
   return world;
 }
+
+/// The world with all in it that is drawn for one simulation.
+World complete(World world, std::uint64_t seed) {
+  const Trajectory way = drivable(world);
+  const std::uint64_t seed_here = seed_of_world(seed, world.name);
+  return with_clutter(std::move(world), way, seed_here);
+}
+
+/// The wheels, and what they were last heard to say.
+struct Wheels {
+  OdometrySimulator simulator;
+  geometry::Pose2 at;  ///< where the robot was then
+  double slipped_m = 0.0;
+  geometry::Pose2 said = {};
+};
 
 }  // namespace
 
@@ -136,19 +198,23 @@ struct Simulation::Parts {
   sensors::Rig rig;
   geometry::FloorPlan plan;
   std::optional<geometry::PoseEstimate> start;
+  Crowd crowd;
+  std::vector<Event> events;
   std::vector<Reading> readings;
   std::optional<OmniRenderer> renderer;
   std::vector<RangeSimulator> ranges;
   std::vector<SonarSimulator> sonars;
 
   Parts(World the_world, std::uint64_t the_seed)
-      : world(checked(std::move(the_world))),
+      : world(complete(checked(std::move(the_world)), the_seed)),
         seed(seed_of_world(the_seed, world.name)),
         way(drivable(world)),
         rig(calibrated_rig(world)),
         plan(draw_floor_plan(world, plan_height(world), seed)),
         start(told_start(world, way.pose_at(0.0), seed)),
-        readings(schedule_all(world, way, seed)) {
+        crowd(world, way, seed),
+        events(all_events(world, way)),
+        readings(schedule_all(world, way, events, seed)) {
     if (world.camera) renderer.emplace(world, seed);
     for (std::size_t i = 0; i < world.range_finders.size(); ++i)
       ranges.emplace_back(world, world.range_finders[i], static_cast<int>(i), seed);
@@ -163,9 +229,11 @@ struct Simulation::Parts {
     std::vector<TrueVertical> verticals;
   };
   [[nodiscard]] std::vector<geometry::Pose2> exposures(double seconds) const;
+  [[nodiscard]] Picture picture(const Reading& reading, bool verticals, OmniRenderer::Workspace& workspace) const;
   [[nodiscard]] std::vector<Picture> render(std::span<const Reading> images, int threads, bool verticals) const;
-  void deliver(const Reading& reading, OdometrySimulator& odometry, geometry::Pose2& odometry_at,
-               const Sink& sink) const;
+  [[nodiscard]] std::function<std::vector<Disc>(double)> people_at(double height_m, double seconds) const;
+  void carry(double when_s, Wheels& wheels) const;
+  void deliver(const Reading& reading, Wheels& wheels, const Sink& sink) const;
 };
 
 /// The poses during the exposure: one at rest, more the more the image moves.
@@ -182,6 +250,28 @@ std::vector<geometry::Pose2> Simulation::Parts::exposures(double seconds) const 
   return poses;
 }
 
+/// What the camera has in view, in the condition that it is in.
+Simulation::Parts::Picture Simulation::Parts::picture(const Reading& reading, bool verticals,
+                                                      OmniRenderer::Workspace& workspace) const {
+  const double seconds = seconds_of(reading.taken);
+  const Condition condition = condition_of(world, "camera0", seconds);
+  const std::vector<Panel> passing = crowd.panels(seconds);
+  std::vector<geometry::Pose2> poses = exposures(seconds);
+  if (condition.turn_rad != 0.0) {
+    // An image that is turned one way is that of a camera turned the other way.
+    const geometry::Pose2& T_base_camera = renderer->T_base_camera();
+    const geometry::Pose2 turned =
+        T_base_camera * geometry::Pose2{0.0, 0.0, -condition.turn_rad} * T_base_camera.inverse();
+    for (geometry::Pose2& pose : poses) pose = pose * turned;
+  }
+  Picture picture;
+  picture.pixels = renderer->render(
+      poses, reading.index, workspace,
+      {.light = condition.blind ? 0.0 : condition.light, .noise = condition.noise, .passing = passing});
+  if (verticals) picture.verticals = renderer->true_verticals(way.pose_at(seconds), workspace, passing);
+  return picture;
+}
+
 /// Threads take the next image that nobody has; every image is a function of its index alone. What a thread throws, the
 /// caller gets.
 std::vector<Simulation::Parts::Picture> Simulation::Parts::render(std::span<const Reading> images, int threads,
@@ -189,40 +279,54 @@ std::vector<Simulation::Parts::Picture> Simulation::Parts::render(std::span<cons
   std::vector<Picture> pictures(images.size());
   run_together(threads, images.size(), [&](NextIndex& next) {
     OmniRenderer::Workspace workspace(world);
-    while (const auto i = next()) {
-      const double seconds = seconds_of(images[*i].time);
-      pictures[*i].pixels = renderer->render(exposures(seconds), images[*i].index, workspace);
-      if (verticals) pictures[*i].verticals = renderer->true_verticals(way.pose_at(seconds), workspace);
-    }
+    while (const auto i = next()) pictures[*i] = picture(images[*i], verticals, workspace);
   });
   return pictures;
 }
 
+/// Who stands where at a number of seconds after `seconds`, cut at a height.
+std::function<std::vector<Disc>(double)> Simulation::Parts::people_at(double height_m, double seconds) const {
+  if (crowd.empty()) return {};
+  return [this, height_m, seconds](double later_s) { return crowd.cut(height_m, seconds + later_s); };
+}
+
+/// Being lifted turns no wheel.
+void Simulation::Parts::carry(double when_s, Wheels& wheels) const {
+  const Condition condition = condition_of(world, "odometry0", when_s);
+  (void)wheels.simulator.advance(wheels.at.inverse() * way.pose_at(when_s - 1e-6), condition);
+  wheels.at = way.pose_at(when_s);
+}
+
 /// Everything but images.
-void Simulation::Parts::deliver(const Reading& reading, OdometrySimulator& odometry, geometry::Pose2& odometry_at,
-                                const Sink& sink) const {
-  const double seconds = seconds_of(reading.time);
+void Simulation::Parts::deliver(const Reading& reading, Wheels& wheels, const Sink& sink) const {
+  const double seconds = seconds_of(reading.taken);
   const auto pose = [&](double later) { return way.pose_at(seconds + later); };
   const auto sensor = static_cast<std::size_t>(reading.sensor);
+  const Condition condition = condition_of(world, sensor_name(reading.kind, reading.sensor), seconds_of(reading.time));
   switch (reading.kind) {
-    case Reading::Kind::kEvent: {
-      // Being lifted turns no wheel.
-      const double when = way.carried()[reading.index];
-      odometry.advance(odometry_at.inverse() * way.pose_at(when - 1e-6));
-      odometry_at = way.pose_at(when);
-      if (sink.event) sink.event(reading.time, "kidnapped");
+    case Reading::Kind::kEvent:
+      if (events[reading.index].name == kKidnapped) carry(events[reading.index].seconds, wheels);
+      if (sink.event) sink.event(reading.time, events[reading.index].name);
       break;
-    }
     case Reading::Kind::kScan:
-      if (sink.scan) sink.scan(ranges[sensor].scan(reading.time, pose, reading.index));
+      if (sink.scan && !condition.blind)
+        sink.scan(ranges[sensor].scan(reading.time, pose, reading.index,
+                                      people_at(world.range_finders[sensor].finder.height_m, seconds), condition));
       break;
     case Reading::Kind::kSonar:
-      if (sink.sonar) sink.sonar(sonars[sensor].sweep(reading.time, pose, reading.index));
+      if (sink.sonar)
+        sink.sonar(sonars[sensor].sweep(reading.time, pose, reading.index,
+                                        people_at(world.sonars[sensor].ring.height_m, seconds)));
       break;
     case Reading::Kind::kOdometry: {
-      const geometry::Pose2 T_odom_base = odometry.advance(odometry_at.inverse() * pose(0.0));
-      odometry_at = pose(0.0);
-      if (sink.odometry) sink.odometry({reading.time, T_odom_base});
+      const geometry::Pose2 here = way.pose_at(seconds_of(reading.time));
+      const double slipped = slipped_m(world, seconds_of(reading.time));
+      const geometry::Pose2 T_odom_base =
+          wheels.simulator.advance(wheels.at.inverse() * here, condition, slipped - wheels.slipped_m);
+      wheels.at = here;
+      wheels.slipped_m = slipped;
+      if (!condition.frozen) wheels.said = T_odom_base;
+      if (sink.odometry && !condition.blind) sink.odometry({reading.time, wheels.said});
       break;
     }
     case Reading::Kind::kImage: break;
@@ -254,8 +358,9 @@ TruthMap Simulation::truth_map(double resolution_m) const {
 
 void Simulation::run(const Sink& sink, int threads) const {
   const Parts& parts = *parts_;
-  OdometrySimulator odometry(parts.world.odometry ? parts.world.odometry->noise : sensors::OdometryNoise{}, parts.seed);
-  geometry::Pose2 odometry_at = parts.way.pose_at(0.0);
+  Wheels wheels{
+      OdometrySimulator(parts.world.odometry ? parts.world.odometry->noise : sensors::OdometryNoise{}, parts.seed),
+      parts.way.pose_at(0.0)};
   std::vector<Reading> images;
   for (const Reading& reading : parts.readings)
     if (reading.kind == Reading::Kind::kImage) images.push_back(reading);
@@ -267,7 +372,7 @@ void Simulation::run(const Sink& sink, int threads) const {
     if (reading.kind == Reading::Kind::kImage && picturing && image % kBatch == 0)
       batch = parts.render(std::span(images).subspan(image, std::min(kBatch, images.size() - image)),
                            std::max(threads, 1), static_cast<bool>(sink.verticals));
-    if (reading.kind == Reading::Kind::kEvent) parts.deliver(reading, odometry, odometry_at, sink);
+    if (reading.kind == Reading::Kind::kEvent) parts.deliver(reading, wheels, sink);
     if (sink.truth && told != reading.time) sink.truth(reading.time, parts.way.pose_at(seconds_of(reading.time)));
     told = reading.time;
     if (reading.kind == Reading::Kind::kImage) {
@@ -275,7 +380,7 @@ void Simulation::run(const Sink& sink, int threads) const {
       if (sink.verticals) sink.verticals(reading.time, batch[image % kBatch].verticals);
       ++image;
     } else if (reading.kind != Reading::Kind::kEvent) {
-      parts.deliver(reading, odometry, odometry_at, sink);
+      parts.deliver(reading, wheels, sink);
     }
     if (sink.progress) sink.progress(static_cast<double>(++done) / static_cast<double>(parts.readings.size()));
   }

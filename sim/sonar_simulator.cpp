@@ -18,6 +18,7 @@ constexpr int kReflections = 2;
 constexpr double kReturn_rad = 0.12;     // a detour comes back if its last wall is met this nearly head-on
 constexpr double kCornerStrength = 0.7;  // echo relative to a wall's
 constexpr double kEdgeStrength = 0.2;
+constexpr double kBodyStrength = 0.3;  // clothes swallow much of it
 constexpr double kAbsorption_per_m = 0.15;
 constexpr double kMargin = 4.0;  // a wall at the largest range is this much louder than the threshold
 constexpr double kJoined_m = 1e-3;
@@ -112,22 +113,37 @@ void SonarSimulator::listen_to_junctions(const geometry::Pose2& T_map_transducer
   }
 }
 
-double SonarSimulator::first_echo(const geometry::Pose2& T_map_transducer) const {
+/// A body is round: it always has a place that is met head-on.
+void SonarSimulator::listen_to_people(const geometry::Pose2& T_map_transducer, std::span<const Disc> people,
+                                      double& nearest) const {
+  for (const Disc& person : people) {
+    const Eigen::Vector2d there = T_map_transducer.inverse() * person.centre;
+    const double range = there.norm() - person.radius_m;
+    if (range <= 0.0 || range >= nearest) continue;
+    const Eigen::Vector2d direction = (person.centre - T_map_transducer.translation()).normalized();
+    if (caster_.cast(T_map_transducer.translation(), direction, range)) continue;
+    if (is_loud(range, std::atan2(there.y(), there.x()), kBodyStrength)) nearest = range;
+  }
+}
+
+double SonarSimulator::first_echo(const geometry::Pose2& T_map_transducer, std::span<const Disc> people) const {
   double nearest = kNoEcho_m;
   listen_to_walls(T_map_transducer, nearest);
   listen_to_junctions(T_map_transducer, nearest);
+  listen_to_people(T_map_transducer, people, nearest);
   return nearest;
 }
 
 sensors::SonarSweep SonarSimulator::sweep(sensors::Timestamp time,
-                                          const std::function<geometry::Pose2(double)>& T_map_base,
-                                          std::uint64_t index) const {
+                                          const std::function<geometry::Pose2(double)>& T_map_base, std::uint64_t index,
+                                          const std::function<std::vector<Disc>(double)>& people) const {
   const sensors::SonarRing& ring = setup_->ring;
   Random random(seed_, kSonarStream + static_cast<std::uint64_t>(sensor_), index);
   sensors::SonarSweep sweep{.time = time, .sensor = sensor_, .ranges_m = {}};
   for (std::size_t i = 0; i < ring.T_base_transducer.size(); ++i) {
     const double fired = ring.firing_times_s.empty() ? 0.0 : ring.firing_times_s[i];
-    const double echo = first_echo(T_map_base(fired) * ring.T_base_transducer[i]);
+    const std::vector<Disc> passing = people ? people(fired) : std::vector<Disc>{};
+    const double echo = first_echo(T_map_base(fired) * ring.T_base_transducer[i], passing);
     const double noise = random.normal(), phantom = random.uniform();
     const bool crossed = random.chance(setup_->cross_talk_share);
     double range = echo + noise * std::max(ring.sigma_m, setup_->relative_sigma * std::min(echo, ring.range_max_m));

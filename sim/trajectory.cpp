@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 namespace credo::sim {
@@ -41,8 +42,12 @@ Trajectory::Trajectory(const std::vector<Waypoint>& path, const Drive& drive) {
   if (path.size() < 2) throw std::invalid_argument("the path needs at least two waypoints");
   // Routes between being carried; each begins where the robot is set down.
   std::vector<std::vector<Eigen::Vector2d>> routes(1);
+  std::vector<std::optional<double>> turns(1);
   for (const Waypoint& waypoint : path) {
-    if (waypoint.carried_here) routes.emplace_back();
+    if (waypoint.carried_here) {
+      routes.emplace_back();
+      turns.push_back(waypoint.turn_rad);
+    }
     if (routes.back().empty() || (waypoint.position - routes.back().back()).norm() > 1e-6)
       routes.back().push_back(waypoint.position);
   }
@@ -51,7 +56,10 @@ Trajectory::Trajectory(const std::vector<Waypoint>& path, const Drive& drive) {
     const std::vector<Eigen::Vector2d>& route = routes[i];
     here_.x = route.front().x();
     here_.y = route.front().y();
-    if (route.size() > 1) here_.theta = heading_of(route[1] - route[0]);
+    if (turns[i])
+      here_.theta = geometry::wrap_angle(here_.theta + *turns[i]);
+    else if (route.size() > 1)
+      here_.theta = heading_of(route[1] - route[0]);
     if (i > 0) carried_.push_back(duration_s_);
     drive_route(route, drive);
   }

@@ -19,16 +19,18 @@ struct Line {
   double z0, z1;
 };
 
-std::vector<Line> vertical_lines(const World& world) {
+std::vector<Line> vertical_lines(const World& world, std::span<const Panel> passing) {
   std::vector<Line> lines;
-  for (const Panel& panel : world.panels) {
+  const auto add = [&](const Panel& panel) {
     const double length = (panel.b - panel.a).norm();
     const Eigen::Vector2d along = (panel.b - panel.a) / length;
     lines.push_back({panel.a, panel.z0_m, panel.z1_m});
     lines.push_back({panel.b, panel.z0_m, panel.z1_m});
     for (const double s : pattern_edges(world.materials[static_cast<std::size_t>(panel.material)], length))
       lines.push_back({panel.a + s * along, panel.z0_m, panel.z1_m});
-  }
+  };
+  std::for_each(world.panels.begin(), world.panels.end(), add);
+  std::for_each(passing.begin(), passing.end(), add);
   return lines;
 }
 
@@ -48,11 +50,12 @@ void merge_close(std::vector<TrueVertical>& edges) {
 
 }  // namespace
 
-std::vector<TrueVertical> OmniRenderer::true_verticals(const geometry::Pose2& T_map_base, Workspace& workspace) const {
+std::vector<TrueVertical> OmniRenderer::true_verticals(const geometry::Pose2& T_map_base, Workspace& workspace,
+                                                       std::span<const Panel> passing) const {
   const sensors::OmniCamera& camera = setup_->camera;
   PanelView& view = workspace.view;
   const geometry::Pose2 T_map_camera = T_map_base * T_base_camera_;
-  view.look_from(T_map_camera, camera.height_m);
+  view.look_from(T_map_camera, camera.height_m, passing);
   const geometry::Pose2 T_camera_map = T_map_camera.inverse();
   const double step = (camera.outer_radius_px - camera.inner_radius_px) / kRows;
   // The grey levels seen at an azimuth on a circle of the image, and how far away.
@@ -67,7 +70,7 @@ std::vector<TrueVertical> OmniRenderer::true_verticals(const geometry::Pose2& T_
                     world_->exposure_gain * fall_off(camera, radius) * view.radiance(hit, light_, origin, direction));
   };
   std::vector<TrueVertical> edges;
-  for (const Line& line : vertical_lines(*world_)) {
+  for (const Line& line : vertical_lines(*world_, passing)) {
     const Eigen::Vector2d foot = T_camera_map * line.foot;
     const double range = foot.norm(), azimuth = std::atan2(foot.y(), foot.x());
     const Eigen::Vector2d bar = camera.image_direction(azimuth);

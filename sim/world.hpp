@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,6 +69,8 @@ struct Drive {
 struct Waypoint {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   bool carried_here = false;  ///< the robot is lifted and set down here without noticing (event `kidnapped`)
+  /// Of one that is carried: set down turned by this against how it stood before; else heading for the next waypoint.
+  std::optional<double> turn_rad = std::nullopt;
 };
 
 struct CameraSetup {
@@ -114,6 +117,27 @@ struct Nuisances {
   double glare = 0.03;           ///< share of saturated light that spreads around (not drawn)
 };
 
+/// A stretch of the drive in which a sensor does not work as calibrated. Events tell of it: `..._failed` where it says
+/// nothing or nothing new, else `..._degraded`; and `..._restored`.
+struct Failure {
+  enum class Kind {
+    kBlind,      ///< no scans, no odometry, black images
+    kFrozen,     ///< the last reading before again and again, with new times
+    kNoisy,      ///< 5 times the noise
+    kDark,       ///< camera: a twelfth of the light
+    kSaturated,  ///< camera: 8 times the light
+    kLying,      ///< what it says is consistent and wrong: `scale`, `offset_m`, `turn_rad`
+    kSlipping    ///< odometry: the wheels turn for `offset_m` more than the way, evenly from beginning to end
+  };
+  std::string sensor = "all";  ///< camera0, range0 ..., odometry0, or all of these
+  Kind kind = Kind::kBlind;
+  double from_s = 0.0;  ///< from the start
+  double to_s = std::numeric_limits<double>::infinity();
+  double scale = 1.0;     ///< of the ranges, and of the way that odometry counts
+  double offset_m = 0.0;  ///< added to the ranges
+  double turn_rad = 0.0;  ///< of the image or the scan, counter-clockwise
+};
+
 /// A building, a robot in it and what it does there: everything that a simulation is made of but the random numbers.
 struct World {
   std::string name;
@@ -124,6 +148,7 @@ struct World {
   double exposure_gain = 230.0;  ///< grey levels of white paper in good light
   std::vector<Material> materials;
   std::vector<Panel> panels;
+  std::vector<Panel> only_planned;  ///< that the floor plan shows and that are not there
   /// Outlines of what is indoors; without any, all within the rectangle around the panels is.
   std::vector<std::vector<Eigen::Vector2d>> areas;
   std::vector<Eigen::Vector2d> marks;  ///< vertical lines without relief that the floor plan shows (door frames)
@@ -131,17 +156,23 @@ struct World {
   double floor_albedo = 0.45;
   double floor_tile_m = 0.0;         ///< 0: no tiles
   double plan_uncertainty_m = 0.01;  ///< 1-sigma of each coordinate of each junction of the floor plan
+  /// Share of the length of the mapped walls, at the height of the range finder, that unmapped things hide. They are
+  /// drawn from the seed of the simulation, clear of the robot's way.
+  double clutter_share = 0.0;
+  int people = 0;  ///< who walk about, each their own way, and keep clear of the robot
 
   double robot_radius_m = 0.25;
   Drive drive;
   std::vector<Waypoint> path;
   bool initial_pose_known = true;
   std::array<double, 3> initial_pose_sigma{0.05, 0.05, 0.035};  ///< m, m, rad
+  std::array<double, 3> initial_pose_offset{0.0, 0.0, 0.0};     ///< what the robot is told is this far off, in the map
   std::optional<CameraSetup> camera;
   std::vector<RangeFinderSetup> range_finders;
   std::vector<SonarSetup> sonars;
   std::optional<OdometrySetup> odometry;
   Nuisances nuisances;
+  std::vector<Failure> failures;
 };
 
 /// Reads a world file (sim/worlds/README.md lists every key).

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 
 #include "sim/building.hpp"
+#include "sim/failures.hpp"
 #include "sim/passage.hpp"
 #include "sim/presets.hpp"
+#include "sim/rearrangement.hpp"
 #include "sim/world.hpp"
 #include "sim/yaml_map.hpp"
 
@@ -128,6 +131,7 @@ void read_doors(YamlMap& building, Builder& builder) {
     door.width_m = positive(map, "width", door.width_m);
     door.height_m = positive(map, "height", door.height_m);
     door.frame_m = not_negative(map, "frame", door.frame_m);
+    door.planned_closed = map.flag("planned_closed", door.planned_closed);
     if (map.has("leaf")) door.leaf_rad = map.number("leaf");
     door.material = map.text("material", door.material);
     placed(map, "at", [&] { builder.add_door(door); });
@@ -184,6 +188,14 @@ void read_light(YamlMap& building, World& world) {
   }
 }
 
+void read_moves(YamlMap& building, World& world) {
+  for (YamlMap& map : building.maps("moved")) {
+    const std::vector<double> by = map.has("by") ? map.numbers("by", 2) : std::vector<double>{0.0, 0.0};
+    placed(map, "at", [&] { move_thing(world, map.point("at"), {by[0], by[1]}, map.number("turn", 0.0)); });
+    map.close();
+  }
+}
+
 void check_size(const YamlMap& building, const World& world) {
   constexpr double kLargest_m = 500.0;
   if (world.panels.empty()) building.fail("rooms", "the building has no walls: give it 'rooms' or 'walls'");
@@ -209,6 +221,7 @@ void read_building(YamlMap building, World& world) {
   read_fixtures(building, "radiators", {.z0_m = 0.08, .z1_m = 0.9}, builder);
   read_fixtures(building, "shelves", {.width_m = 1.2, .depth_m = 0.3, .z1_m = 1.9, .material = "books"}, builder);
   read_boxes(building, world, builder);
+  read_moves(building, world);
   building.close();
   check_size(building, world);
 }
@@ -229,7 +242,7 @@ void read_drive(YamlMap map, Drive& drive) {
 /// Where each waypoint stands: "file:line".
 using PathSource = std::vector<std::string>;
 
-/// Waypoints [x, y], or {carried_to: [x, y]} where the robot is set down.
+/// Waypoints [x, y], or {carried_to: [x, y], turn: rad} where the robot is set down.
 PathSource read_path(YamlMap& top, World& world, const std::string& file) {
   PathSource source;
   const YAML::Node path = top.child("path");
@@ -242,7 +255,9 @@ PathSource read_path(YamlMap& top, World& world, const std::string& file) {
       world.path.push_back({{p[0], p[1]}, false});
     } else {
       YamlMap map(item, file, "a waypoint");
-      world.path.push_back({map.point("carried_to"), true});
+      Waypoint waypoint{map.point("carried_to"), true};
+      if (map.has("turn")) waypoint.turn_rad = map.number("turn");
+      world.path.push_back(waypoint);
       map.close();
     }
   }
@@ -342,16 +357,32 @@ void read_nuisances(YamlMap map, Nuisances& nuisances) {
   map.close();
 }
 
-/// What the robot is told of the calibration is how large its errors really are.
-void state_accuracy(World& world) {
-  const Nuisances& n = world.nuisances;
-  const sensors::CalibrationAccuracy accuracy{.x_m = n.mounting_m,
-                                              .y_m = n.mounting_m,
-                                              .theta_rad = n.mounting_rad,
-                                              .center_px = n.center_px,
-                                              .tilt_rad = n.tilt_rad};
-  if (world.camera) world.camera->camera.accuracy = accuracy;
-  for (RangeFinderSetup& setup : world.range_finders) setup.finder.accuracy = accuracy;
+Failure::Kind read_failure_kind(YamlMap& map) {
+  static const std::map<std::string, Failure::Kind> kKinds{
+      {"blind", Failure::Kind::kBlind},        {"frozen", Failure::Kind::kFrozen},
+      {"noisy", Failure::Kind::kNoisy},        {"dark", Failure::Kind::kDark},
+      {"lying", Failure::Kind::kLying},        {"slipping", Failure::Kind::kSlipping},
+      {"saturated", Failure::Kind::kSaturated}};
+  const auto kind = kKinds.find(map.text("kind", ""));
+  if (kind == kKinds.end()) map.fail("kind", "'kind' must be blind, frozen, noisy, dark, saturated, lying or slipping");
+  return kind->second;
+}
+
+void read_failures(YamlMap& top, World& world) {
+  world.failures.clear();
+  for (YamlMap& map : top.maps("failures")) {
+    Failure failure;
+    failure.sensor = map.text("sensor", failure.sensor);
+    failure.kind = read_failure_kind(map);
+    failure.from_s = not_negative(map, "from", failure.from_s);
+    if (map.has("to")) failure.to_s = not_negative(map, "to", 0.0);
+    failure.scale = positive(map, "scale", failure.scale);
+    failure.offset_m = map.number("offset", failure.offset_m);
+    failure.turn_rad = map.number("turn", failure.turn_rad);
+    map.close();
+    world.failures.push_back(failure);
+    placed(map, "sensor", [&] { check_failures(world); });
+  }
 }
 
 YAML::Node load_file(const std::filesystem::path& file) {
@@ -380,11 +411,14 @@ void read_world(const std::filesystem::path& file, World& world, PathSource& pat
   world.description = top.text("description", world.description);
   if (!extends || top.has("building")) {
     world.panels.clear();
+    world.only_planned.clear();
     world.marks.clear();
     world.areas.clear();
     read_building(top.map("building"), world);
   }
   world.plan_uncertainty_m = not_negative(top, "plan_uncertainty", world.plan_uncertainty_m);
+  world.clutter_share = share(top, "clutter", world.clutter_share);
+  world.people = top.integer_within("people", world.people, 0, 100);
   world.robot_radius_m = positive(top, "robot_radius", world.robot_radius_m);
   if (top.has("drive")) read_drive(top.map("drive"), world.drive);
   if (!extends || top.has("path")) {
@@ -398,6 +432,10 @@ void read_world(const std::filesystem::path& file, World& world, PathSource& pat
       top.fail("initial_pose_sigma", "'initial_pose_sigma' must be three numbers larger than 0");
     world.initial_pose_sigma = {sigma[0], sigma[1], sigma[2]};
   }
+  if (top.has("initial_pose_offset")) {
+    const std::vector<double> offset = top.numbers("initial_pose_offset", 3);
+    world.initial_pose_offset = {offset[0], offset[1], offset[2]};
+  }
   if (!extends || top.has("sensors")) {
     world.camera.reset();
     world.range_finders.clear();
@@ -408,6 +446,7 @@ void read_world(const std::filesystem::path& file, World& world, PathSource& pat
       top.fail("sensors", "the robot needs a camera, a range finder or a sonar ring");
   }
   if (top.has("nuisances")) read_nuisances(top.map("nuisances"), world.nuisances);
+  if (top.has("failures")) read_failures(top, world);
   top.close();
 }
 

@@ -35,6 +35,7 @@ THIRD_PARTY = {
     "opencv2/imgcodecs": {"datasets", "results"},
     "boost/": {"tracking"},
     "ceres/": {"localization"},
+    "mrpt/": {"evaluation"},
     "yaml-cpp/": {"sim", "datasets"},
     "tbb/": {"mapping"},
     "oneapi/": {"mapping"},

@@ -1,83 +1,49 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Runs the built command (CREDO_COMMAND) as a person does.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <sstream>
 
-#include "tests/support/temporary_folder.hpp"
+#include "tests/apps/command.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
+using credo::tests::Answer;
+using credo::tests::Command;
+using credo::tests::text_of;
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-struct Answer {
-  int status = -1;
-  std::string out, error;
-};
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-class Command : public testing::Test {
- protected:
-  /// In the test's own folder.
-  Answer credo(const std::string& arguments) const {
-    const std::string line = "cd '" + folder_.string() + "' && '" CREDO_COMMAND "' " + arguments + " >.out 2>.error";
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / ".out"), text_of(folder_ / ".error")};
-  }
-  void write(const fs::path& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
-  [[nodiscard]] std::string read(const fs::path& name) const { return text_of(folder_ / name); }
-
-  void write_fixture() const {
-    write("ref.tum",
-          "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0.7071067811865476 0.7071067811865476\n"
-          "3 2 1 0 0 0 0.7071067811865476 0.7071067811865476\n4 2 2 0 0 0 1 0\n");
-    write("est.tum",
-          "0 0.1 0 0 0 0 0 1\n1 1.1 0.1 0 0 0 0.009999833334166664 0.9999500004166653\n"
-          "2 2.0 0.1 0 0 0 0.6892099936627883 0.7245616499893844\n"
-          "3 2.1 1.0 0 0 0 0.7071067811865476 0.7071067811865476\n"
-          "4 2.1 2.2 0 0 0 0.9987502603949663 0.04997916927067834\n");
-  }
-  /// A room without a camera: quick to simulate.
-  void write_small_world() const {
-    write("small.yaml",
-          "format: credo-world/1\nname: small\ndescription: one room (simulated)\n"
-          "building:\n  rooms:\n    - outline: [[0, 0], [4, 0], [4, 3], [2.5, 3], [2.5, 2.4], [0, 2.4]]\n"
-          "path: [[0.8, 0.8], [3.0, 0.9], [3.2, 2.0]]\ndrive: {mode: stop_and_go, step: 0.3, pause: 0.4}\n"
-          "sensors:\n  range_finders:\n    - {preset: opensimple, pose: [0.05, 0, 0], height: 0.8}\n"
-          "  sonars:\n    - {preset: pioneer-16, rate: 5}\n  odometry: {rate: 10}\n");
-  }
-
-  credo::tests::TemporaryFolder temporary_;
-  fs::path folder_ = temporary_.path();
-};
-
 TEST_F(Command, HelpStartsWithExamples) {
-  for (const char* name : {"", "demo", "simulate", "run", "map", "evaluate", "evaluate ape", "evaluate rpe",
-                           "evaluate traj", "evaluate score", "evaluate nees", "evaluate map", "info"}) {
+  for (const char* name : {"",
+                           "demo",
+                           "simulate",
+                           "run",
+                           "map",
+                           "evaluate",
+                           "evaluate ape",
+                           "evaluate rpe",
+                           "evaluate traj",
+                           "evaluate score",
+                           "evaluate integrity",
+                           "evaluate nees",
+                           "evaluate map",
+                           "compare",
+                           "compare localizers",
+                           "compare association",
+                           "campaign",
+                           "info",
+                           "reproduce",
+                           "reproduce clerentin"}) {
     const Answer answer = credo(std::string(name) + " --help");
     EXPECT_EQ(answer.status, 0) << name;
     EXPECT_THAT(answer.out, StartsWith("Examples:\n  credo ")) << name;
@@ -88,8 +54,10 @@ TEST_F(Command, HelpStartsWithExamples) {
 TEST_F(Command, VersionIsSaid) { EXPECT_THAT(credo("--version").out, StartsWith("credo ")); }
 
 TEST_F(Command, WrongUsageEndsWithStatusTwo) {
-  for (const char* arguments : {"", "fly", "run", "run a --method magic", "evaluate", "evaluate ape one",
-                                "run a --resolution -1", "evaluate nees one", "info x --format xml"}) {
+  for (const char* arguments :
+       {"", "fly", "run", "run a --method magic", "evaluate", "evaluate ape one", "run a --resolution -1",
+        "evaluate nees one", "evaluate nees", "evaluate integrity one", "evaluate integrity a b --fail_above magic=1",
+        "info x --format xml", "reproduce", "reproduce clerentin --seeds 0", "reproduce clerentin --pictures p"}) {
     const Answer answer = credo(arguments);
     EXPECT_EQ(answer.status, 2) << arguments;
     EXPECT_THAT(answer.error, StartsWith("credo: error: ")) << arguments;
@@ -135,6 +103,62 @@ TEST_F(Command, UnknownWordsAreMetWithTheNearestKnownOne) {
   }
 }
 
+TEST_F(Command, APaperThatCannotBeReproducedIsMetWithThoseThatCan) {
+  const Answer answer = credo("reproduce sonar");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.error, AllOf(HasSubstr("'sonar'"), HasSubstr("there are: clerentin")));
+}
+
+TEST_F(Command, ReproducePutsThePaperBesideBothMethodsOnTheSameReadings) {
+  write_small_world();
+  const std::string clerentin = "reproduce clerentin --seed 3 --seeds 2 --ways small.yaml";
+  const Answer text = credo(clerentin);
+  ASSERT_EQ(text.status, 0) << text.error;
+  EXPECT_THAT(text.out, AllOf(HasSubstr("mean position error [cm]"), HasSubstr("table 1"), HasSubstr("m_l(YES)")));
+  EXPECT_EQ(credo(clerentin).out, text.out);
+
+  const json report = json::parse(credo(clerentin + " --format json").out);
+  EXPECT_EQ(report["printed"]["mean_position_cm"], "13");
+  const json& method = report["method_default"];
+  EXPECT_EQ(method["acquisitions"].size(), 2 * report["acquisitions_per_seed"].get<std::size_t>());
+  EXPECT_LT(method["figures"]["mean_position_cm"]["mean"].get<double>(), 5.0);
+  // What was played in memory is what a dataset of the same seed gives.
+  ASSERT_EQ(credo("simulate small.yaml --seed 3 --out data").status, 0);
+  const json alone = json::parse(credo("reproduce clerentin --seed 3 --seeds 1 --ways small.yaml --format json").out);
+  for (const char* name : {"paper", "default"}) {
+    const Answer run = credo(std::string("run data --force --out run --format json --method ") + name);
+    const json in_memory = alone[std::string("method_") + name]["figures"]["mean_position_cm"]["mean"];
+    const double on_disk = json::parse(run.out)["score"]["mean_position_m"].get<double>();
+    EXPECT_NEAR(0.01 * in_memory.get<double>(), on_disk, 1e-3) << name;
+  }
+}
+
+TEST_F(Command, ThePageOfTheReproductionsShowsTheTableThatReproducePrints) {
+  write_small_world();
+  const std::string printed = credo("reproduce clerentin --seeds 1 --ways small.yaml").out;
+  const std::string page = text_of(CREDO_SOURCE_DIR "/docs/reproduce.md");
+  std::istringstream table(page.substr(page.find("mean position error [cm]")));
+  int lines = 0;
+  for (std::string line; std::getline(table, line) && line != "```"; ++lines) {
+    constexpr std::size_t kWordsAndPaper = 63;  // what stands before our own numbers
+    EXPECT_THAT(printed, HasSubstr(line.substr(0, kWordsAndPaper)));
+  }
+  EXPECT_GT(lines, 20);
+}
+
+TEST_F(Command, ReproduceLeavesAReportAndPictures) {
+  write_small_world();
+  const std::string command = "reproduce clerentin --seeds 1 --ways small.yaml --out out --pictures out/pictures";
+  const Answer answer = credo(command);
+  ASSERT_EQ(answer.status, 0) << answer.error;
+  EXPECT_THAT(answer.out, StartsWith(read("out/report.txt")));
+  EXPECT_EQ(json::parse(read("out/report.json"))["paper"], "clerentin");
+  for (const char* name : {"positions_paper", "positions_default", "beliefs"})
+    EXPECT_TRUE(fs::exists(folder_ / "out/pictures" / (std::string(name) + ".png"))) << name;
+  EXPECT_EQ(credo(command).status, 1);
+  EXPECT_EQ(credo(command + " --force").status, 0);
+}
+
 TEST_F(Command, WrongInputEndsWithStatusOneAndSaysWhere) {
   write("bad.tum", "0 0 0 0 0 0 0 1\n1 0 0 zero 0 0 0 1\n");
   write("ref.tum", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");
@@ -145,6 +169,7 @@ TEST_F(Command, WrongInputEndsWithStatusOneAndSaysWhere) {
                         {"info missing", "missing"},
                         {"map missing", "missing"},
                         {"simulate missing --out out", "office"},
+                        {"simulate office --kind hall --out out", "--kind is for the world 'random'"},
                         {"evaluate ape ref.tum bad.tum", "bad.tum:2:"},
                         {"evaluate score ref.tum missing", "missing"},
                         {"evaluate map ref.tum missing", "missing"}}) {
@@ -246,6 +271,56 @@ TEST_F(Command, TheWholeWayOfTheData) {
   EXPECT_EQ(json::parse(credo("map data --out true_map --format json").out)["poses"], "ground truth");
   EXPECT_GT(json::parse(credo("evaluate map data true_map --format json").out)["accuracy"].get<double>(), 0.8);
   EXPECT_EQ(credo("map data --out own_map --poses first/trajectory.tum").status, 0);
+}
+
+TEST_F(Command, IntegrityAndConsistencyPoolRuns) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out lists/data").status, 0);
+  ASSERT_EQ(credo("run lists/data --out lists/run").status, 0);
+  write("lists/runs.txt", "# twice the same\ndata run\n\ndata\trun  # again\n");
+  const json one = json::parse(credo("evaluate integrity lists/data lists/run --format json").out);
+  const json two = json::parse(credo("evaluate integrity --runs lists/runs.txt --format json").out);
+  EXPECT_EQ(two["runs"], 2);
+  EXPECT_EQ(two["placed"]["count"], 2 * one["placed"]["count"].get<int>());
+  EXPECT_NEAR(two["figures"]["brier"].get<double>(), one["figures"]["brier"].get<double>(), 1e-12);
+
+  const Answer text = credo("evaluate integrity --runs lists/runs.txt --pictures pictures --fail_above lost=0");
+  EXPECT_EQ(text.status, 0) << text.error;
+  EXPECT_THAT(text.out, AllOf(StartsWith("Integrity of 2 runs"), HasSubstr("meets [Bel, Pl]")));
+  for (const char* name : {"detection", "calibration", "risk"})
+    EXPECT_TRUE(fs::exists(folder_ / "pictures" / (std::string(name) + ".png"))) << name;
+  EXPECT_THAT(credo("evaluate integrity --runs lists/runs.txt --pictures pictures").error,
+              HasSubstr("pictures: is there already"));
+
+  ASSERT_EQ(credo("evaluate nees lists/data lists/run --pictures nees").status, 0);
+  for (const char* name : {"anees", "errors"})
+    EXPECT_TRUE(fs::exists(folder_ / "nees" / (std::string(name) + ".png"))) << name;
+}
+
+TEST_F(Command, GatesOfIntegrityFailBelowAndWhereNothingIsKnown) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  ASSERT_EQ(credo("run data --out run").status, 0);
+  EXPECT_EQ(credo("evaluate integrity data run --fail_below lost=0").status, 0);
+  const Answer below = credo("evaluate integrity data run --fail_below lost=0.5");
+  EXPECT_EQ(below.status, 1);
+  EXPECT_THAT(below.error, HasSubstr("--fail_below lost=0.5: lost is 0.000000"));
+  const Answer unknown = credo("evaluate integrity data run --fail_below auroc=0.9");
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_THAT(unknown.error, HasSubstr("auroc is not known"));
+  EXPECT_EQ(credo("evaluate nees data run --fail_above mean=0").status, 1);
+}
+
+TEST_F(Command, AListOfRunsThatCannotBeReadIsNamedWithTheLine) {
+  write("half.txt", "# runs\ndata run\ndata\n");
+  write("empty.txt", "# none\n");
+  for (const char* command : {"integrity", "nees"}) {
+    const std::string evaluate = std::string("evaluate ") + command + " --runs ";
+    EXPECT_THAT(credo(evaluate + "half.txt").error, HasSubstr("half.txt:3: expected a reference and a result"));
+    EXPECT_THAT(credo(evaluate + "empty.txt").error, HasSubstr("empty.txt: lists no run"));
+    EXPECT_THAT(credo(evaluate + "missing.txt").error, HasSubstr("missing.txt: cannot be read"));
+    EXPECT_EQ(credo(evaluate + "half.txt").status, 1);
+  }
 }
 
 TEST_F(Command, ResultsAreReplacedOnlyByForce) {
@@ -464,6 +539,45 @@ TEST_F(Command, ARefusedRunLeavesNoFolder) {
   ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
   EXPECT_EQ(credo("run data --resolution 9 --out new/newer/run").status, 1);
   EXPECT_FALSE(fs::exists(folder_ / "new"));
+}
+
+TEST_F(Command, LocalizersAreComparedOnTheSameReadings) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  const Answer text = credo("compare localizers data --out table.csv --pictures pictures");
+  EXPECT_EQ(text.status, 0) << text.error;
+  EXPECT_THAT(text.out, AllOf(StartsWith("small: "), HasSubstr("EKF, JCBB"), HasSubstr("ICP, oracle start"),
+                              HasSubstr("misleading: available, yet")));
+  EXPECT_TRUE(fs::exists(folder_ / "pictures" / "errors_data.png"));
+  EXPECT_THAT(read("table.csv"), AllOf(StartsWith("dataset,localizer,"), HasSubstr("\nsmall,\"Credo, paper\",")));
+
+  const json tables = json::parse(credo("compare localizers data data --format json").out);
+  ASSERT_EQ(tables.size(), 3u);  // the third: all together
+  const json& credos = tables[2]["localizers"].back();
+  EXPECT_EQ(credos["localizer"], "Credo");
+  EXPECT_EQ(credos["acquisitions"], 2 * tables[0]["localizers"].back()["acquisitions"].get<int>());
+  EXPECT_LT(credos["mean_position_m"], 0.05);
+  for (const json& line : tables[0]["localizers"])
+    EXPECT_TRUE(line.contains("mean_position_m") || line.contains("note")) << line;
+}
+
+TEST_F(Command, AssociationsAreComparedOnTheSamePredictions) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  const json tables = json::parse(credo("compare association data --format json").out);
+  for (const json& method : tables[0]["methods"]) EXPECT_GT(method["right"], 0) << method;
+  EXPECT_THAT(credo("compare association data").out, AllOf(HasSubstr("JPDA"), HasSubstr("wrong share: ")));
+}
+
+TEST_F(Command, WhatCannotBeComparedSaysWhatItLacks) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  fs::remove_all(folder_ / "data" / "groundtruth0");
+  for (const char* what : {"localizers", "association"}) {
+    const Answer answer = credo("compare " + std::string(what) + " data");
+    EXPECT_EQ(answer.status, 1) << what;
+    EXPECT_THAT(answer.error, HasSubstr("data: the dataset has no ground truth")) << what;
+  }
 }
 
 }  // namespace

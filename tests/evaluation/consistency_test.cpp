@@ -98,7 +98,23 @@ TEST(Consistency, IsMetByHonestErrorsAndMissedByOverconfidentAndPessimisticOnes)
 TEST(Consistency, StopsAtTheShortestRun) {
   const std::vector<std::vector<double>> runs{{1.0, 2.0, 3.0}, {3.0, 4.0}};
   EXPECT_EQ(consistency(runs).anees, (std::vector<double>{2.0, 3.0}));
-  EXPECT_THROW((void)consistency({}), std::runtime_error);
+  EXPECT_THROW((void)consistency({}), std::invalid_argument);
+}
+
+TEST(Consistency, ComparesAnIndexOnlyWhereEveryRunHasAnError) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::vector<double>> runs{{kNone, 2.0, 3.0}, {1.0, 4.0, 5.0}};
+  const Consistency c = consistency(runs);
+  EXPECT_EQ(c.indices, (std::vector<std::size_t>{1, 2}));
+  EXPECT_EQ(c.anees, (std::vector<double>{3.0, 4.0}));
+  EXPECT_THROW((void)consistency(std::vector<std::vector<double>>{{kNone}, {1.0}}), std::invalid_argument);
+}
+
+TEST(Consistency, ExpectsTheDimension) {
+  const std::vector<std::vector<double>> runs(50, std::vector<double>(10, 2.0));
+  EXPECT_TRUE(consistency(runs, 2).met());
+  EXPECT_NEAR(consistency(runs, 2).bounds.upper, 2.591, 6e-4);
+  EXPECT_FALSE(consistency(runs, 1).met());
 }
 
 }  // namespace

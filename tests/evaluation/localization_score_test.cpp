@@ -103,48 +103,18 @@ TEST(LocalizationScore, NeesAndSigmasAreThoseOfTheCovariance) {
 TEST(LocalizationScore, RefusesATruthOfAnotherTime) {
   std::vector<datasets::TimedPose> other{{100 * kSecond, {}}};
   EXPECT_THAT([&] { (void)score(std::vector{row(0, 0, 0, 0.9)}, other); },
-              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("belong together")));
+              testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("belong together")));
 }
 
-TEST(DegradedIntervals, RunFromTheFirstEventOfASensorToItsRestoration) {
-  const auto intervals = degraded_intervals({{1, "camera0_degraded"},
-                                             {2, "camera0_failed"},
-                                             {3, "range0_failed"},
-                                             {4, "lights_off"},
-                                             {5, "camera0_restored"},
-                                             {6, "camera0_restored"}});
-  ASSERT_EQ(intervals.size(), 2U);
-  EXPECT_EQ(intervals[0], (Interval{1, 5}));
-  EXPECT_EQ(intervals[1].first, 3);
-  EXPECT_GT(intervals[1].second, sensors::kLatestTime) << "never restored";
-}
-
-TEST(TruthAt, InterpolatesShortGapsOnly) {
-  const std::vector<datasets::TimedPose> rows{{0, {0, 0, 0}}, {kSecond / 10, {1, 0, 0}}, {2 * kSecond, {9, 0, 0}}};
-  EXPECT_NEAR(truth_at(rows, kSecond / 20)->x, 0.5, 1e-12);
-  EXPECT_NEAR(truth_at(rows, kSecond / 10 + 9'000'000)->x, 1.0, 1e-12);
-  EXPECT_FALSE(truth_at(rows, kSecond));
-  EXPECT_NEAR(truth_at(rows, 2 * kSecond + 5'000'000)->x, 9.0, 1e-12);
-  EXPECT_FALSE(truth_at(rows, 3 * kSecond));
-  EXPECT_FALSE(truth_at({}, 0));
-}
-
-TEST(Auroc, IsTheShareOfOrderedPairs) {
-  EXPECT_NEAR(*auroc(std::vector{0.9, 0.8}, std::vector{0.1, 0.2}), 1.0, 1e-12);
-  EXPECT_NEAR(*auroc(std::vector{0.5}, std::vector{0.5}), 0.5, 1e-12);
-  EXPECT_NEAR(*auroc(std::vector{0.9, 0.3}, std::vector{0.5, 0.1}), 0.75, 1e-12);
-  EXPECT_FALSE(auroc(std::vector{0.9}, std::vector<double>{}));
-}
-
-TEST(CalibrationError, IsZeroWhenFrequenciesMatch) {
-  std::vector<double> p;
-  std::vector<bool> hit;
-  for (int i = 0; i < 100; ++i) {
-    p.push_back(i < 50 ? 0.2 : 0.8);
-    hit.push_back(i < 50 ? i % 5 == 0 : i % 5 != 0);
-  }
-  EXPECT_NEAR(calibration_error(p, hit), 0.0, 1e-12);
-  EXPECT_NEAR(calibration_error(std::vector{0.9, 0.9}, {false, false}), 0.9, 1e-12);
+TEST(LocalizationScore, WithoutAPoseInTheMapThereIsAnAlertAndNoError) {
+  const auto s = score_of({row(0, 5.0, 0, 0.5, Status::kInitializing), row(1, 0.02, 0, 0.9)});
+  EXPECT_EQ(s.placed, 1);
+  EXPECT_NEAR(s.max_position_m, 0.02, 1e-12);
+  EXPECT_NEAR(s.alert, 0.5, 1e-12);
+  EXPECT_EQ(s.lost, 0.0);
+  EXPECT_EQ(s.false_alert, 0.0);
+  EXPECT_THAT(to_text(s), testing::HasSubstr("1 of them are initializing"));
+  EXPECT_THROW((void)score_of({row(0, 0.0, 0, 0.5, Status::kInitializing)}), std::invalid_argument);
 }
 
 }  // namespace

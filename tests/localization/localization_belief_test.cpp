@@ -67,16 +67,24 @@ TEST(LocalizationBelief, TheDefaultFusesTheMeanPartThePaperAllOfThem) {
 }
 
 TEST(LocalizationBelief, OnlyTracksMatchedNowThatHaveALandmarkTakePart) {
-  for (const Method method : {Method::kDefault, Method::kPaper}) {
-    std::vector<Track> others(3, track(kDoubted));
-    others[0].landmark = tracking::kNoLandmark;
-    others[1].state = TrackState::kMissed;
-    others[2].state = TrackState::kUndecided;
-    const auto without = localization_belief(all_matched({}), by(method));
-    EXPECT_EQ(localization_belief(all_matched(others), by(method)).mass, without.mass);
-    others.push_back(track(kDoubted));
-    EXPECT_LT(localization_belief(all_matched(others), by(method)).mass.yes, without.mass.yes - 0.01);
-  }
+  std::vector<Track> others(3, track(kDoubted));
+  others[0].landmark = tracking::kNoLandmark;
+  others[1].state = TrackState::kMissed;
+  others[2].state = TrackState::kUndecided;
+  const auto without = localization_belief(all_matched({}));
+  EXPECT_EQ(localization_belief(all_matched(others)).mass, without.mass);
+  others.push_back(track(kDoubted));
+  EXPECT_LT(localization_belief(all_matched(others)).mass.yes, without.mass.yes - 0.01);
+}
+
+TEST(LocalizationBelief, UnderThePapersMethodEveryTrackWithALandmarkTakesPart) {
+  const LocalizationBeliefParams paper = by(Method::kPaper);
+  std::vector<Track> unknown{track(kDoubted)}, missed{track(kDoubted)}, seen{track(kDoubted)};
+  unknown[0].landmark = tracking::kNoLandmark;
+  missed[0].state = TrackState::kMissed;
+  EXPECT_EQ(localization_belief(all_matched(unknown), paper).mass, localization_belief(all_matched({}), paper).mass);
+  EXPECT_EQ(localization_belief(all_matched(missed), paper).mass, localization_belief(all_matched(seen), paper).mass);
+  EXPECT_LT(localization_belief(all_matched(seen), paper).mass.yes, 0.95);
 }
 
 TEST(LocalizationBelief, AWallIsReliedOnLessThanAPoint) {

@@ -81,12 +81,16 @@ TEST_F(EmptyRoom, CountsThePointsInSightAndThoseRecognised) {
 
 TEST_F(EmptyRoom, WhatStandsBeforeAPointHidesIt) {
   match({0, 0});
-  ASSERT_EQ(evidence().in_sight, 4);
+  ASSERT_EQ(evidence().in_sight, 4) << "without a scan nothing is hidden";
+  for (const Vector2d& corner : {Vector2d(0, 0), Vector2d(0, 3), Vector2d(4, 3)})
+    scene_.points.push_back({.position = corner - Vector2d(1, 1)});
+  EXPECT_EQ(evidence().in_sight, 3) << "no beam passes near (4, 0)";
   const Vector2d to_corner = Vector2d(4, 0) - Vector2d(1, 1);
   scene_.points.push_back({.position = 0.6 * to_corner});
   EXPECT_EQ(evidence().in_sight, 3);
-  scene_.points.push_back({.position = to_corner});
-  EXPECT_EQ(evidence().in_sight, 4) << "one beam passes";
+  const Vector2d aside(-to_corner.y(), to_corner.x());
+  scene_.points.push_back({.position = to_corner - 0.02 * aside});
+  EXPECT_EQ(evidence().in_sight, 4) << "the beam on the other side passes";
 }
 
 TEST_F(EmptyRoom, AnOutlierIsNeitherMatchedNorRecognised) {

@@ -7,6 +7,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 
 #include "results/history.hpp"
@@ -53,6 +54,29 @@ TEST(Ticks, AreLabelledWithTheDecimalsOfTheirStep) {
   EXPECT_EQ(tick_label(0.25, 0.25), "0.25");
   EXPECT_EQ(tick_label(20.0, 10.0), "20");
   EXPECT_EQ(tick_label(-1e-17, 0.1), "0.0");
+}
+
+cv::Mat drawn(const Plot& plot) {
+  Canvas canvas(300, 200);
+  plot.draw(canvas, {0, 0}, {300, 200});
+  return canvas.finish();
+}
+
+TEST(Plots, WhiskersWithoutAnEndAreLeftOut) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const auto with_upper_end = [](double high) {
+    Plot plot("", "", "");
+    return drawn(plot.whiskers({1.0}, {0.2}, {high}, colors::kRed, "", 4.0).x_limits(0.0, 2.0).y_limits(0.0, 1.0));
+  };
+  EXPECT_TRUE(has(with_upper_end(0.8), colors::kRed));
+  EXPECT_FALSE(has(with_upper_end(kNan), colors::kRed));
+}
+
+TEST(Plots, WhatLiesOutsideOfTheLimitsIsNotDrawn) {
+  Plot plot("", "", "");
+  plot.points({5.0}, {0.5}, colors::kRed, "", 5.0).y_limits(0.0, 1.0);
+  EXPECT_TRUE(has(drawn(plot), colors::kRed));
+  EXPECT_FALSE(has(drawn(plot.x_limits(0.0, 2.0)), colors::kRed));
 }
 
 TEST(LengthText, IsInMetresFromOneMetreOn) {

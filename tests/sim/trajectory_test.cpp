@@ -94,5 +94,15 @@ TEST(OdometrySimulator, RestsWithTheRobot) {
   EXPECT_EQ(odometry.advance({}), before);
 }
 
+TEST(Trajectory, ACarriedRobotIsSetDownTurnedAsSaid) {
+  const std::vector<Waypoint> path{{{0, 0}}, {{2, 0}}, {{2, 0}, true, 1.2}, {{2, 2}}};
+  const Trajectory way(path, {});
+  ASSERT_EQ(way.carried().size(), 1U);
+  const geometry::Pose2 before = way.pose_at(way.carried()[0] - 1e-6), after = way.pose_at(way.carried()[0] + 1e-6);
+  EXPECT_NEAR(geometry::angle_difference(after.theta, before.theta), 1.2, 1e-9);
+  EXPECT_NEAR((after.translation() - before.translation()).norm(), 0.0, 1e-3);
+  EXPECT_NEAR(way.pose_at(way.duration_s()).y, 2.0, 0.3);  // and drives on
+}
+
 }  // namespace
 }  // namespace credo::sim

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "geometry/angles.hpp"
 #include "geometry/segment.hpp"
 #include "sim/trajectory.hpp"
 #include "tests/sim/test_worlds.hpp"
@@ -47,10 +48,30 @@ TEST(ShippedWorlds, AllLoadAndTheRobotFitsThrough) {
 }
 
 TEST(ShippedWorlds, TheCorridorEndHas42AcquisitionsOnTwoWays) {
-  const World one = load_world(shipped("corridor_end")), two = load_world(shipped("corridor_end_2"));
+  const World one = load_world(shipped("corridor_end"));
   EXPECT_EQ(Trajectory(one.path, one.drive).stops().size(), 21U);
-  EXPECT_EQ(Trajectory(two.path, two.drive).stops().size(), 21U);
-  EXPECT_EQ(one.panels.size(), two.panels.size());
+  for (const char* second : {"corridor_end_2", "corridor_end_curve"}) {
+    const World two = load_world(shipped(second));
+    EXPECT_EQ(Trajectory(two.path, two.drive).stops().size(), 21U) << second;
+    EXPECT_EQ(one.panels.size(), two.panels.size()) << second;
+  }
+}
+
+TEST(ShippedWorlds, TheCurveOfTheCorridorEndIsGentle) {
+  const World world = load_world(shipped("corridor_end_curve"));
+  const Trajectory way(world.path, world.drive);
+  double before = 0.0, most = 0.0;
+  for (std::size_t i = 1; i < way.stops().size(); ++i) {
+    const double turn =
+        geometry::angle_difference(way.pose_at(way.stops()[i]).theta, way.pose_at(way.stops()[i - 1]).theta);
+    EXPECT_NEAR((way.pose_at(way.stops()[i]).translation() - way.pose_at(way.stops()[i - 1]).translation()).norm(), 0.3,
+                0.005)
+        << "at " << i;
+    EXPECT_LT(std::abs(turn - before), geometry::to_radians(3.5)) << "at " << i;
+    most = std::max(most, std::abs(turn));
+    before = turn;
+  }
+  EXPECT_GT(most, geometry::to_radians(5.0));
 }
 
 TEST(Builder, AnOpeningIsCutThroughBothFacesOfAWall) {
@@ -158,6 +179,13 @@ TEST(WorldFile, ComplaintsNameFileLineAndWhatToDo) {
       {"name: tiny", "name: [", "", "not valid YAML"},
       {"  range_finders:\n    - {preset: opensimple}", "  odometry: {rate: 10}", ":8:", "needs a camera"},
       {"path:", "drive: {mode: fly}\npath:", ":6:", "stop_and_go or continuous"},
+      {"path:", "clutter: 1.5\npath:", ":6:", "from 0 to 1, not 1.5"},
+      {"path:", "people: -1\npath:", ":6:", "from 0 to 100, not -1"},
+      {"path:", "initial_pose_offset: [1, 2]\npath:", ":6:", "3 numbers"},
+      {"path:", "failures: [{sensor: range0, kind: broken}]\npath:", ":6:", "'kind' must be blind"},
+      {"path:", "failures: [{sensor: range1, kind: blind}]\npath:", ":6:", "no sensor 'range1'"},
+      {"path:", "failures: [{sensor: range0, kind: blind, form: 1}]\npath:", ":6:", "did you mean 'from'"},
+      {"path:", "  moved: [{at: [2, 1.5], by: [0, 1]}]\npath:", ":6:", "nothing within 0.5 m"},
   };
   for (const Case& c : cases) {
     const std::string text = complaint(changed(c.from, c.to));
@@ -255,6 +283,14 @@ TEST(WorldFile, TheManualsExampleLoadsAndItsDefaultsAreTrue) {
   EXPECT_EQ(world.camera->struts_rad, camera_preset("conic-640").struts_rad);
   EXPECT_EQ(world.camera->strut_width_px, camera_preset("conic-640").strut_width_px);
   EXPECT_EQ(world.sonars[0].cross_talk_share, SonarSetup{}.cross_talk_share);
+  EXPECT_EQ(world.clutter_share, defaults.clutter_share);
+  EXPECT_EQ(world.people, defaults.people);
+  EXPECT_EQ(world.initial_pose_offset, defaults.initial_pose_offset);
+  EXPECT_EQ(world.path[2].turn_rad, 0.6);
+  ASSERT_EQ(world.failures.size(), 2U);
+  EXPECT_EQ(world.failures[0].scale, Failure{}.scale);
+  EXPECT_EQ(world.failures[1].to_s, Failure{}.to_s);
+  EXPECT_EQ(world.only_planned.size(), 3U);  // of the shelf
 }
 
 TEST(WorldFile, AFolderIsNone) {

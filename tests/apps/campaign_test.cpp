@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/command.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using credo::tests::Answer;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CampaignCommand : public credo::tests::Command {
+ protected:
+  void SetUp() override {
+    write_small_world();
+    write("tiny.yaml", "format: credo-campaign/1\nworlds: [small.yaml]\nseeds: {first: 3, count: 2}\n");
+  }
+};
+
+TEST_F(CampaignCommand, RunsSumsUpAndSaysHowToReplay) {
+  const Answer answer = credo("campaign tiny.yaml --out out --threads 2");
+  EXPECT_EQ(answer.status, 0) << answer.error;
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("2 of 2 runs are finished"), HasSubstr("\nnominal "), HasSubstr("\nall "),
+                                HasSubstr("credo simulate small.yaml --seed 3 --out replay/small-3-nominal && "
+                                          "credo run replay/small-3-nominal")));
+  for (const char* name : {"campaign.yaml", "config.yaml", "summary.csv", "times.csv", "runs/small-4-nominal.csv"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+  const json summary = json::parse(read("out/summary.json"));
+  EXPECT_EQ(summary["runs_finished"], 2);
+  EXPECT_LT(summary["groups"][0]["measures"]["mean_position"]["value"], 0.2);
+}
+
+TEST_F(CampaignCommand, InPiecesGivesTheSameBytesAsAtOnce) {
+  EXPECT_EQ(credo("campaign tiny.yaml --out whole --threads 1").status, 0);
+  EXPECT_THAT(credo("campaign tiny.yaml --out parts --threads 1 --limit 1").out, HasSubstr("1 of 2 runs are finished"));
+  EXPECT_EQ(credo("campaign tiny.yaml --out parts --threads 2").status, 0);
+  for (const char* name : {"campaign.yaml", "config.yaml", "summary.csv", "summary.json", "runs/small-3-nominal.csv",
+                           "runs/small-4-nominal.csv"})
+    EXPECT_EQ(read(fs::path("whole") / name), read(fs::path("parts") / name)) << name;
+}
+
+TEST_F(CampaignCommand, SumsUpAFinishedFolderAgain) {
+  const Answer first = credo("campaign tiny.yaml --out out --seeds 1 --format json");
+  fs::remove(folder_ / "out/summary.csv");
+  const Answer again = credo("campaign --summarize out --format json");
+  EXPECT_EQ(again.status, 0) << again.error;
+  EXPECT_EQ(again.out, first.out);
+  EXPECT_TRUE(fs::exists(folder_ / "out/summary.csv"));
+}
+
+TEST_F(CampaignCommand, RefusesToMixAndSaysWhatToDo) {
+  EXPECT_EQ(credo("campaign tiny.yaml --out out --seeds 1").status, 0);
+  EXPECT_THAT(credo("campaign tiny.yaml --out out").error, HasSubstr("start anew with --force"));
+  write("small.yaml", read("small.yaml") + "\n");
+  EXPECT_THAT(credo("campaign tiny.yaml --out out --seeds 1").error, HasSubstr("other world files"));
+  EXPECT_EQ(credo("campaign tiny.yaml --out out --seeds 1 --force").status, 0);
+}
+
+TEST_F(CampaignCommand, ComplainsBeforeItBegins) {
+  EXPECT_THAT(credo("campaign nowhere --out out").error,
+              AllOf(HasSubstr("no such campaign file"), HasSubstr(" nominal")));
+  write("typo.yaml", "format: credo-campaign/1\nworlds: [offfice]\n");
+  EXPECT_THAT(credo("campaign typo.yaml --out out").error, HasSubstr("offfice: no such world file"));
+  write("kind.yaml", "format: credo-campaign/1\nworlds: [random:hal]\n");
+  EXPECT_THAT(credo("campaign kind.yaml --out out").error, HasSubstr("hal"));
+  EXPECT_THAT(credo("campaign --out out").error, HasSubstr("expected either SPEC with --out, or --summarize"));
+  EXPECT_THAT(credo("campaign tiny.yaml").error, HasSubstr("--out is missing"));
+  EXPECT_THAT(credo("campaign tiny.yaml --out out --threads 0").error, HasSubstr("from 1 to"));
+  EXPECT_THAT(credo("campaign --summarize out").error, HasSubstr("campaign.yaml"));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+}  // namespace
