@@ -76,7 +76,7 @@ struct RadialLineExtractor::State {
   double noise = 0.0;
   cv::Mat gapless;  ///< copy of an image whose rows have gaps
   std::vector<EdgeHit> hits;
-  std::vector<RadialPoint> points;
+  RadialPoints points;
   std::vector<SlopeReading> slopes;
   std::vector<std::int16_t> scratch;
 };
@@ -99,10 +99,10 @@ RadialLineExtractor::State::State(const sensors::OmniCamera& camera_in, const Ra
 void RadialLineExtractor::State::recenter() {
   if ((rim.center_px() - annulus.center_px()).norm() <= params.recenter_px) return;
   const Eigen::Vector2d& center = rim.center_px();
-  annulus = AnnulusTable(camera, center, annulus_radii(camera, params), params.column_px);
-  gray = AnnulusTable(camera, center, gray_circles(camera, params.gray), params.column_px);
-  struts.recenter(camera, center, params.column_px);
-  votes = LineVotes(annulus, camera, params.bin_rad);
+  annulus.recenter(camera, center);
+  gray.recenter(camera, center);
+  struts.recenter(camera, center);
+  votes.count_usable_rows(annulus);
 }
 
 /// \returns whether there is anything to be seen in the image.

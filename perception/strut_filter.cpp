@@ -31,8 +31,8 @@ StrutFilter::StrutFilter(const sensors::OmniCamera& camera, const Eigen::Vector2
   for (const AnnulusRow& row : inner_.rows()) samples_.emplace_back(row.columns);
 }
 
-void StrutFilter::recenter(const sensors::OmniCamera& camera, const Eigen::Vector2d& center_px, double column_px) {
-  inner_ = AnnulusTable(camera, center_px, inner_radii(camera, params_), column_px);
+void StrutFilter::recenter(const sensors::OmniCamera& camera, const Eigen::Vector2d& center_px) {
+  inner_.recenter(camera, center_px);
 }
 
 bool StrutFilter::crosses_inside(double from, double width, double noise) const {
