@@ -55,7 +55,7 @@ struct RadialFitParams {
   int iterations = 8;            ///< at most
   double settled_sigmas = 0.01;  ///< a step that small, in standard deviations of the azimuth, is the last
   double support_sigmas = 4.0;   ///< a point within this many standard deviations supports the line
-  double error_inflation = 1.4;  ///< neighbouring circles share pixels and the sampling pattern
+  double error_inflation = 1.2;  ///< neighbouring circles share pixels and the sampling pattern
 };
 
 struct RadialFit {
