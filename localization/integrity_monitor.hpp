@@ -62,7 +62,7 @@ struct Integrity {
 /// of these together exceed with a probability of IntegrityParams::risk. Keeps its memory.
 class IntegrityMonitor {
  public:
-  explicit IntegrityMonitor(const IntegrityParams& params = {}) : params_(params) {}
+  explicit IntegrityMonitor(const IntegrityParams& params = {});
 
   /// \param beliefs  of each observation of the solution: BetP(YES) that its track exists
   /// \param aliases  other places where the robot may be

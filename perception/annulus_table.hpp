@@ -41,6 +41,7 @@ class AnnulusTable {
   [[nodiscard]] const std::vector<AnnulusRow>& rows() const { return rows_; }
   [[nodiscard]] const Eigen::Vector2d& center_px() const { return center_px_; }
   [[nodiscard]] int max_columns() const { return max_columns_; }
+  [[nodiscard]] std::size_t samples() const { return offsets_.size(); }
 
   /// Grey levels times kScale of a row's samples; samples outside the image repeat its border.
   /// \param pixels  first of the image's pixels, rows of width_px bytes without gaps

@@ -70,6 +70,7 @@ AzimuthEdgeFilter::AzimuthEdgeFilter(const EdgeFilterParams& params, double colu
       samples_(max_columns + 2 * kMargin),
       marks_(max_columns),
       response_(max_columns + 2 * kMargin) {
+  widths_.reserve(samples_.size());
   const double sigma = std::max(1.0, params.sigma_px / column_px);  // in columns, at least one
   std::array<double, kReach> ideal{};
   double sum = 0.0;

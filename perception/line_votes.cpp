@@ -28,6 +28,16 @@ LineVotes::LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& cam
   count_usable_rows(annulus);
 }
 
+void LineVotes::reserve(std::size_t hits) {
+  slots_.reserve(hits);
+  order_.reserve(hits);
+  used_.reserve(hits);
+  near_.reserve(hits);
+  by_row_.reserve(hits);
+  middle_.reserve(hits);
+  peaks_.reserve(static_cast<std::size_t>(bins_));
+}
+
 void LineVotes::count_usable_rows(const AnnulusTable& annulus) {
   const auto rows = static_cast<int>(annulus.rows().size());
   usable_rows_.assign(bins_, rows);

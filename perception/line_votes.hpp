@@ -25,6 +25,9 @@ class LineVotes {
  public:
   LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& camera, double bin_rad);
 
+  /// Memory for so many hits, and as many lines as they can be expected to make.
+  void reserve(std::size_t hits);
+
   /// On how many circles a line can be seen, by azimuth: again where the table has been made anew.
   void count_usable_rows(const AnnulusTable& annulus);
 

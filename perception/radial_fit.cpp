@@ -84,6 +84,12 @@ RadialPoints::RadialPoints(std::span<const RadialPoint> points) {
   for (const RadialPoint& point : points) push_back(point);
 }
 
+void RadialPoints::reserve(std::size_t points) {
+  blocks_.reserve(points / kLanes + 1);
+  rows_.reserve(points);
+  steps_.reserve(points);
+}
+
 void RadialPoints::clear() {
   blocks_.clear();
   rows_.clear();

@@ -34,6 +34,7 @@ class RadialPoints {
   RadialPoints() = default;
   explicit RadialPoints(std::span<const RadialPoint> points);
 
+  void reserve(std::size_t points);
   void clear();
   void push_back(const RadialPoint& point);
 

@@ -18,6 +18,9 @@ namespace {
 
 using geometry::kTurn;
 
+constexpr std::size_t kColumnsPerHit = 8;  // more edges than that are no image
+constexpr std::size_t kUsualLines = 512;
+
 void check(const sensors::OmniCamera& camera) {
   if (!(camera.inner_radius_px > 0.0) || !(camera.outer_radius_px > camera.inner_radius_px)) {
     throw std::invalid_argument("the camera's annulus needs an inner radius above 0 and an outer one above that");
@@ -93,7 +96,13 @@ RadialLineExtractor::State::State(const sensors::OmniCamera& camera_in, const Ra
       struts(camera, camera.center_px, params.column_px, params.struts),
       votes(annulus, camera, params.bin_rad),
       sigma_slope(0.0),
-      scratch(static_cast<std::size_t>(std::max(annulus.max_columns(), gray.max_columns()))) {}
+      scratch(static_cast<std::size_t>(std::max(annulus.max_columns(), gray.max_columns()))) {
+  const std::size_t most_hits = annulus.samples() / kColumnsPerHit;
+  hits.reserve(most_hits);
+  votes.reserve(most_hits);
+  points.reserve(most_hits);
+  slopes.reserve(kUsualLines);
+}
 
 /// Makes the tables anew about the rim's centre once that has left the tables' centre; in between, hits are corrected.
 void RadialLineExtractor::State::recenter() {
@@ -197,6 +206,7 @@ void RadialLineExtractor::extract(const sensors::OmniImage& image, Scene& scene)
   State& state = *state_;
   check(image, state.camera);
   scene.radial_lines.clear();
+  scene.radial_lines.reserve(kUsualLines);
   scene.gray.values.clear();
   scene.camera_origin = {state.camera.T_base_camera.x, state.camera.T_base_camera.y};
   const cv::Mat* pixels = &image.pixels;

@@ -39,6 +39,7 @@ Segmenter::Segmenter(const sensors::RangeFinder& range_finder, const Segmentatio
       increment_(std::abs(range_finder.angle_increment_rad)),
       clockwise_(range_finder.angle_increment_rad < 0.0),
       range_max_(range_finder.range_max_m) {
+  pieces_.reserve(static_cast<std::size_t>(std::max(0, range_finder.count)));
   if (increment_ <= 0.0) return;
   const double full_turn = 2.0 * std::numbers::pi;
   if (range_finder.count * increment_ > full_turn - 1.5 * increment_)
