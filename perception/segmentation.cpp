@@ -301,8 +301,7 @@ void Segmenter::turn_pieces(Points& points) {
 void Segmenter::keep_lines(const Points& points, std::vector<RangeSegment>& segments) const {
   const double outlier = noise_.params.no_weight_from;
   for (const Piece& piece : pieces_) {
-    RangeSegment segment{.first = piece.first, .last = piece.last};
-    segment.fit = fit_line(span(points, piece.first, piece.last), noise_);
+    RangeSegment segment{.first = piece.first, .last = piece.last, .fit = piece.fit};
     const LineEstimate& line = segment.fit.line;
     const auto strays = [&](int k) { return std::abs(residual_sigmas(points[k], line, noise_)) >= outlier; };
     while (segment.first < segment.last && strays(segment.first)) ++segment.first;
