@@ -405,6 +405,13 @@ void PoseSolver::State::finish(const Prior& prior, double omega, const PoseState
 }
 
 PoseSolver::PoseSolver(const sensors::Rig& rig, const PoseSolverParams& params) : state_(std::make_unique<State>()) {
+  constexpr std::size_t kUsualObservations = 256;
+  state_->residuals.directions.reserve(kUsualObservations);
+  state_->residuals.whiteners.reserve(kUsualObservations);
+  state_->linearised.reserve(kUsualObservations);
+  state_->solution.mahalanobis_squared.reserve(kUsualObservations);
+  state_->solution.outlier.reserve(kUsualObservations);
+  state_->solution.linearised.reserve(kUsualObservations);
   state_->common = common_errors_of(rig);
   state_->params = params;
   for (const int dimension : {1, 2})
