@@ -8,66 +8,25 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <optional>
 #include <vector>
 
+#include "evaluation/played_drive.hpp"
 #include "localization/localizer.hpp"
 #include "perception/observer.hpp"
-#include "sim/simulation.hpp"
 #include "tests/support/counted_new.hpp"
 
 namespace credo {
 namespace {
-
-/// A drive in memory, images decoded.
-struct Drive {
-  sensors::Rig rig;
-  geometry::FloorPlan plan;
-  std::optional<geometry::PoseEstimate> initial_pose;
-  std::vector<sensors::Acquisition> acquisitions;
-};
-
-const sensors::RangeScan& nearest(const std::vector<sensors::RangeScan>& scans, sensors::Timestamp time) {
-  return *std::min_element(scans.begin(), scans.end(), [time](const auto& a, const auto& b) {
-    return std::abs(a.time - time) < std::abs(b.time - time);
-  });
-}
-
-Drive simulate(const char* world) {
-  const sim::Simulation simulation(sim::load_world(std::string(CREDO_SOURCE_DIR "/sim/worlds/") + world + ".yaml"), 1);
-  std::vector<sensors::OmniImage> images;
-  std::vector<sensors::RangeScan> scans;
-  std::vector<sensors::OdometryReading> odometry;
-  sim::Sink sink;
-  sink.image = [&](const sensors::OmniImage& image) { images.push_back({image.time, image.pixels.clone()}); };
-  sink.scan = [&](const sensors::RangeScan& scan) { scans.push_back(scan); };
-  sink.odometry = [&](const sensors::OdometryReading& reading) { odometry.push_back(reading); };
-  simulation.run(sink, 2);
-  Drive drive{simulation.rig(), simulation.floor_plan(), simulation.initial_pose(), {}};
-  const sensors::MotionPath path(odometry);
-  for (const sensors::OmniImage& image : images) {
-    sensors::Acquisition& acquisition = drive.acquisitions.emplace_back();
-    acquisition.time = image.time;
-    acquisition.image = image;
-    acquisition.scan = nearest(scans, image.time);
-    acquisition.path = path;
-    if (drive.acquisitions.size() > 1 && drive.rig.odometry) {
-      const sensors::Timestamp before = drive.acquisitions[drive.acquisitions.size() - 2].time;
-      acquisition.motion = drive.rig.odometry->with_covariance(path.motion(before, image.time));
-    }
-  }
-  return drive;
-}
 
 /// What the stages of the loop allocate, by acquisition.
 struct Allocations {
   std::vector<int> observing, localizing;
 };
 
-Allocations count_allocations(const Drive& drive) {
-  perception::Observer observer(drive.rig);
-  localization::Localizer localizer(drive.plan, drive.rig, drive.initial_pose);
+Allocations count_allocations(const evaluation::PlayedDrive& drive) {
+  const datasets::DatasetHeader& robot = drive.dataset.header;
+  perception::Observer observer(robot.rig);
+  localization::Localizer localizer(robot.floor_plan.value(), robot.rig, robot.initial_pose);
   Allocations result;
   const auto counted = [](auto&& stage) {
     const int before = testing::allocations();
@@ -87,7 +46,8 @@ Allocations count_allocations(const Drive& drive) {
 }
 
 TEST(Allocation, OfTheLoopEndsWithTheFirstAcquisition) {
-  const Drive drive = simulate("corridor_end");
+  const evaluation::PlayedDrive drive =
+      evaluation::play(sim::load_world(CREDO_SOURCE_DIR "/sim/worlds/corridor_end.yaml"), 1);
   ASSERT_GT(drive.acquisitions.size(), 20U);
   const Allocations found = count_allocations(drive);
   EXPECT_THAT(found.observing, ::testing::Each(0));
