@@ -88,6 +88,11 @@ class LandmarkMap {
   [[nodiscard]] double cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_range_m) const {
     return grid_.first_crossing(origin, direction, max_range_m);
   }
+  /// The same with the wall's normal.
+  [[nodiscard]] RayHit first_hit(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction,
+                                 double max_range_m) const {
+    return grid_.first_hit(origin, direction, max_range_m);
+  }
 
  private:
   void cut_walls_at_points(double tolerance);

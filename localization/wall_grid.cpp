@@ -109,27 +109,36 @@ void WallGrid::for_each_square(const Segment& wall, Visit&& visit) const {
 }
 
 /// From square to square along the ray (Amanatides and Woo, Eurographics 1987).
-double WallGrid::first_crossing(const Vector2d& origin, const Vector2d& direction, double reach_m) const {
-  if (entries_.empty()) return kNowhere;
+WallGrid::Met WallGrid::first_wall(const Vector2d& origin, const Vector2d& direction, double reach_m) const {
+  if (entries_.empty()) return {};
   const Vector2d size = side_m_ * Vector2d(columns_, rows_), start = origin - origin_;
   double from = 0.0, to = reach_m;
   clip(start.x(), direction.x(), 0.0, size.x(), from, to);
   clip(start.y(), direction.y(), 0.0, size.y(), from, to);
-  if (!(from <= to)) return kNowhere;
+  if (!(from <= to)) return {};
   const Vector2d entry = start + from * direction;
   AxisWalk x(entry.x(), direction.x(), from, side_m_, columns_), y(entry.y(), direction.y(), from, side_m_, rows_);
-  double nearest = kNowhere;
+  Met nearest;
   while (true) {
-    for (const Entry& entry_here : walls_in({x.square, y.square}))
-      nearest = std::min(nearest, crossing(origin, direction, entry_here.wall));
+    for (const Entry& entry_here : walls_in({x.square, y.square})) {
+      const double range = crossing(origin, direction, entry_here.wall);
+      if (range < nearest.range_m) nearest = {range, &entry_here.wall};
+    }
     const double left = std::min(x.next, y.next);
-    if (nearest <= left || left >= to) return nearest < reach_m ? nearest : kNowhere;
+    if (nearest.range_m <= left || left >= to) break;
     AxisWalk& walk = x.next < y.next ? x : y;
     walk.square += walk.step;
     walk.next += walk.growth;
-    if (x.square < 0 || x.square >= columns_ || y.square < 0 || y.square >= rows_)
-      return nearest < reach_m ? nearest : kNowhere;
+    if (x.square < 0 || x.square >= columns_ || y.square < 0 || y.square >= rows_) break;
   }
+  return nearest.range_m < reach_m ? nearest : Met{};
+}
+
+RayHit WallGrid::first_hit(const Vector2d& origin, const Vector2d& direction, double reach_m) const {
+  const Met met = first_wall(origin, direction, reach_m);
+  if (met.wall == nullptr) return {};
+  const Vector2d normal = met.wall->normal();
+  return {met.range_m, direction.dot(normal) > 0.0 ? Vector2d(-normal) : normal};
 }
 
 bool WallGrid::any_near(const Vector2d& point, double distance_m) const {

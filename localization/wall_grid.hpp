@@ -4,12 +4,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "geometry/segment.hpp"
 
 namespace credo::localization {
+
+/// What a ray meets first.
+struct RayHit {
+  double range_m = std::numeric_limits<double>::infinity();  ///< infinity: nothing
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();          ///< of the wall, unit, towards where the ray comes from
+};
 
 /// The walls of a plan by the squares of a grid that they pass: what lies near a point or along a ray is found without
 /// looking at the rest of the plan.
@@ -20,7 +27,11 @@ class WallGrid {
   /// Distance to the first wall along a ray that is nearer than `reach_m`; infinity where there is none. [m]
   /// \param direction  unit vector
   [[nodiscard]] double first_crossing(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction,
-                                      double reach_m) const;
+                                      double reach_m) const {
+    return first_wall(origin, direction, reach_m).range_m;
+  }
+  /// The same with the wall's normal.
+  [[nodiscard]] RayHit first_hit(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double reach_m) const;
 
   /// Whether any wall is at most that far from a point.
   [[nodiscard]] bool any_near(const Eigen::Vector2d& point, double distance_m) const;
@@ -33,6 +44,10 @@ class WallGrid {
     geometry::Segment wall;
     int index = 0;
   };
+  struct Met {
+    double range_m = std::numeric_limits<double>::infinity();
+    const geometry::Segment* wall = nullptr;
+  };
   struct Square {
     int column = 0;
     int row = 0;
@@ -41,6 +56,7 @@ class WallGrid {
     Square first, last;
   };
 
+  [[nodiscard]] Met first_wall(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double reach_m) const;
   template <class Visit>
   void for_each_square(const geometry::Segment& wall, Visit&& visit) const;
   [[nodiscard]] Block around(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const;

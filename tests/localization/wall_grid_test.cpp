@@ -93,6 +93,36 @@ TEST(WallGrid, WithoutWallsHasNothing) {
   EXPECT_THAT(listed, IsEmpty());
   EXPECT_FALSE(grid.any_near({0, 0}, 1e9));
   EXPECT_EQ(grid.first_crossing({0, 0}, {1, 0}, 1e9), kNowhere);
+  EXPECT_TRUE(std::isinf(grid.first_hit({0, 0}, {1, 0}, 1e9).range_m));
+}
+
+TEST(WallGrid, TheFirstOfTwoWallsIsMetAndItsNormalFacesTheRay) {
+  const std::vector<Segment> walls{{{5, -1}, {5, 1}}, {{3, 1}, {3, -1}}};
+  for (const bool turned : {false, true}) {
+    const WallGrid grid(turned ? std::vector<Segment>{walls[0], {walls[1].b, walls[1].a}} : walls);
+    const RayHit hit = grid.first_hit({0.0, 0.2}, Vector2d::UnitX(), 10.0);
+    EXPECT_DOUBLE_EQ(hit.range_m, 3.0);
+    EXPECT_NEAR((hit.normal - Vector2d(-1.0, 0.0)).norm(), 0.0, 1e-12);
+  }
+}
+
+TEST(WallGrid, WhatIsBeyondTheReachIsNotMet) {
+  const std::vector<Segment> walls{{{3, -1}, {3, 1}}};
+  EXPECT_TRUE(std::isinf(WallGrid(walls).first_hit({0.0, 0.0}, Vector2d::UnitX(), 2.9).range_m));
+}
+
+TEST(WallGrid, ARayFromOutsideThePlanReachesIt) {
+  const std::vector<Segment> walls{{{3, -1}, {3, 1}}};
+  EXPECT_DOUBLE_EQ(WallGrid(walls).first_hit({-40.0, 0.0}, Vector2d::UnitX(), 100.0).range_m, 43.0);
+}
+
+TEST(WallGrid, ARayAlongAnAxisThroughBordersIsNotLost) {
+  const std::vector<Segment> walls{{{0, 0}, {0, 8}}, {{8, 0}, {8, 8}}, {{0, 8}, {8, 8}}};
+  const WallGrid grid(walls);
+  for (double y = 0.5; y < 8.0; y += 0.25) {
+    EXPECT_NEAR(grid.first_crossing({1.0, y}, Vector2d::UnitX(), 20.0), 7.0, 1e-12);
+    EXPECT_NEAR(grid.first_crossing({1.0, y}, Vector2d::UnitY(), 20.0), 8.0 - y, 1e-12);
+  }
 }
 
 TEST(WallGrid, ARayAlongABorderOfItsSquaresMissesNothing) {
