@@ -9,9 +9,9 @@
 
 #include "apps/about.hpp"
 #include "apps/pipeline.hpp"
-#include "apps/played_drive.hpp"
 #include "apps/shipped.hpp"
 #include "evaluation/localization_score.hpp"
+#include "evaluation/played_drive.hpp"
 
 namespace credo::apps {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 using evaluation::ReproducedDrive;
 using perception::Method;
 
-ReproducedDrive localize(const PlayedDrive& played, Method method) {
+ReproducedDrive localize(const evaluation::PlayedDrive& played, Method method) {
   const datasets::DatasetHeader& header = played.dataset.header;
   if (!header.initial_pose)
     throw std::invalid_argument("the initial matching is given by hand: expected a known initial pose, found none");
@@ -71,7 +71,8 @@ ClerentinExperiment reproduce_clerentin(const ClerentinParams& params, const std
     for (const sim::World& world : worlds) {
       const std::uint64_t seed = params.seed + static_cast<std::uint64_t>(s);
       about("world " + world.name, [&] {
-        const PlayedDrive played = play(world, seed, [&](double share) { progress((done + share) / drives); });
+        const evaluation::PlayedDrive played =
+            evaluation::play(world, seed, [&](double share) { progress((done + share) / drives); });
         if (done == 0.0) experiment.plan = played.dataset.header.floor_plan.value();
         paper.drives.push_back(localize(played, Method::kPaper));
         standard.drives.push_back(localize(played, Method::kDefault));

@@ -14,23 +14,33 @@ std::optional<FusedBinaryMass> whole_from_all_parts(std::span<const BinaryMass> 
 }
 
 FusedBinaryMass whole_from_mean_part(std::span<const BinaryMass> criteria, std::span<const Part> parts) {
+  return whole_from_mean(criteria, mean_part(parts));
+}
+
+FusedBinaryMass whole_from_mean(std::span<const BinaryMass> criteria, const BinaryMass& mean) {
   Conjunction all;
   for (const BinaryMass& criterion : criteria) all.add(criterion);
-  all.add(mean_part(parts));
+  all.add(mean);
   return all.conflict_to_ignorance();
 }
 
+void PartMean::add(const Part& part) {
+  const BinaryMass mass = discount(part.mass, part.reliability);
+  sum_.yes += mass.yes;
+  sum_.no += mass.no;
+  sum_.unknown += mass.unknown;
+  ++count_;
+}
+
+BinaryMass PartMean::mean() const {
+  if (count_ == 0) return BinaryMass::vacuous();
+  return {.yes = sum_.yes / count_, .no = sum_.no / count_, .unknown = sum_.unknown / count_};
+}
+
 BinaryMass mean_part(std::span<const Part> parts) {
-  if (parts.empty()) return BinaryMass::vacuous();
-  BinaryMass sum{.yes = 0.0, .no = 0.0, .unknown = 0.0};
-  for (const Part& part : parts) {
-    const BinaryMass mass = discount(part.mass, part.reliability);
-    sum.yes += mass.yes;
-    sum.no += mass.no;
-    sum.unknown += mass.unknown;
-  }
-  const double count = static_cast<double>(parts.size());
-  return {.yes = sum.yes / count, .no = sum.no / count, .unknown = sum.unknown / count};
+  PartMean sum;
+  for (const Part& part : parts) sum.add(part);
+  return sum.mean();
 }
 
 }  // namespace credo::evidence

@@ -27,6 +27,20 @@ struct Part {
 /// once. Does not depend on the number of equal parts. No part gives a vacuous mean.
 [[nodiscard]] FusedBinaryMass whole_from_mean_part(std::span<const BinaryMass> criteria, std::span<const Part> parts);
 
+/// The same from the mean of the parts.
+[[nodiscard]] FusedBinaryMass whole_from_mean(std::span<const BinaryMass> criteria, const BinaryMass& mean);
+
+/// The mean of discounted masses, part by part; vacuous without parts.
+class PartMean {
+ public:
+  void add(const Part& part);
+  [[nodiscard]] BinaryMass mean() const;
+
+ private:
+  BinaryMass sum_{.yes = 0.0, .no = 0.0, .unknown = 0.0};
+  int count_ = 0;
+};
+
 /// The mean of the discounted masses; vacuous without parts.
 [[nodiscard]] BinaryMass mean_part(std::span<const Part> parts);
 

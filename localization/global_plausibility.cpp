@@ -35,7 +35,7 @@ double Plausibility::scan_share() const {
 
 ScenePlausibility::ScenePlausibility(const LandmarkMap& map, const DistanceField& field, const sensors::Rig& rig,
                                      const PlausibilityParams& params)
-    : map_(&map), params_(params), rays_(map.surfaces()), field_(&field) {
+    : map_(&map), params_(params), field_(&field) {
   if (!rig.range_finders.empty()) range_finder_.push_back(rig.range_finders.front());
 }
 
@@ -82,7 +82,7 @@ Plausibility ScenePlausibility::at(const Pose2& T_map_base) {
   double sum = 0.0;
   for (const Beam& beam : beams_) {
     const Vector2d ray = R * beam.ray;
-    const RayHit hit = rays_.cast(t + R * beam.origin, ray, beam.range_m);
+    const RayHit hit = map_->first_hit(t + R * beam.origin, ray, beam.range_m);
     const double passed_m = beam.range_m - hit.range_m;
     const double through_m = passed_m * std::abs(ray.dot(hit.normal));
     const double tolerance_m = kThroughSigmas * beam.sigma_m;
@@ -98,7 +98,7 @@ Plausibility ScenePlausibility::at(const Pose2& T_map_base) {
   for (const Beam& beam : silent_) {
     const double reach_m = range_finder_.front().range_max_m;
     const Vector2d ray = R * beam.ray;
-    const RayHit hit = rays_.cast(t + R * beam.origin, ray, reach_m);
+    const RayHit hit = map_->first_hit(t + R * beam.origin, ray, reach_m);
     if (!(hit.range_m <= reach_m))
       sum += params_.beam_weight * params_.silent_in_the_open;
     else if (hit.range_m < params_.surely_in_reach * reach_m && -ray.dot(hit.normal) > params_.steepest_incidence)
@@ -116,7 +116,7 @@ void ScenePlausibility::list_sights(const Pose2& pose) {
     const Vector2d way = point.position - camera;
     const double range_m = way.norm();
     if (range_m > params_.sight_m || range_m < kNearest_m) continue;
-    if (rays_.cast(camera, way / range_m, range_m - kBefore_m).range_m < range_m) continue;
+    if (!map_->sees(camera, point.position, kBefore_m)) continue;
     if (!map_->type_from(point, camera)) continue;
     sights_.push_back({.point = point.position});
   }
@@ -172,7 +172,7 @@ void ScenePlausibility::pull_beams(const Pose2& pose, double scale_m, NormalEqua
   const Vector2d t = pose.translation();
   for (const Beam& beam : beams_) {
     const Vector2d ray = R * beam.ray, arm = R * beam.point;
-    const RayHit hit = rays_.cast(t + R * beam.origin, ray, beam.range_m + 2.0 * scale_m);
+    const RayHit hit = map_->first_hit(t + R * beam.origin, ray, beam.range_m + 2.0 * scale_m);
     if (!std::isfinite(hit.range_m)) continue;
     const double residual = (beam.range_m - hit.range_m) * ray.dot(hit.normal);
     const double scale = std::max(scale_m, 2.0 * beam.sigma_m);

@@ -9,7 +9,6 @@
 
 #include "localization/distance_field.hpp"
 #include "localization/landmark_map.hpp"
-#include "localization/ray_index.hpp"
 
 namespace credo::localization {
 
@@ -117,7 +116,6 @@ class ScenePlausibility {
   const LandmarkMap* map_;
   PlausibilityParams params_;
   std::vector<sensors::RangeFinder> range_finder_;  ///< one or none
-  RayIndex rays_;
   const DistanceField* field_;
 
   // The scene.

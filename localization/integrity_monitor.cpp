@@ -88,6 +88,13 @@ ProbabilityInterval both(const ProbabilityInterval& a, const ProbabilityInterval
 
 }  // namespace
 
+IntegrityMonitor::IntegrityMonitor(const IntegrityParams& params) : params_(params) {
+  constexpr std::size_t kUsualLandmarks = 96;
+  landmarks_.reserve(kUsualLandmarks);
+  by_landmark_.reserve(kUsualLandmarks);
+  hypotheses_.reserve(kUsualLandmarks * kUsualLandmarks / 2 + kUsualLandmarks);
+}
+
 /// Pieces of one wall are taken together: their rows span the same two dimensions.
 void IntegrityMonitor::list_landmarks(const PoseSolution& solution, std::span<const double> beliefs) {
   assert(beliefs.size() == solution.linearised.size());

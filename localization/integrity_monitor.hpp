@@ -66,7 +66,7 @@ struct Integrity {
 /// its memory.
 class IntegrityMonitor {
  public:
-  explicit IntegrityMonitor(const IntegrityParams& params = {}) : params_(params) {}
+  explicit IntegrityMonitor(const IntegrityParams& params = {});
 
   /// \param beliefs  of each observation of the solution: BetP(YES) that its track exists
   /// \param aliases  other places where the robot may be

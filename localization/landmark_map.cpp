@@ -50,15 +50,19 @@ double angle_of(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
 /// Wall ends within the tolerance of each other become one junction at their mean; the two ends of one wall never do.
 /// \param junction_of_end  by end
-std::vector<Junction> join_ends(const std::vector<Segment>& walls, double tolerance,
+std::vector<Junction> join_ends(const std::vector<Segment>& walls, const WallGrid& grid, double tolerance,
                                 std::vector<int>& junction_of_end) {
   const std::size_t ends = 2 * walls.size();
   Groups groups(ends);
-  for (std::size_t i = 0; i < ends; ++i)
-    for (std::size_t j = i + 1; j < ends; ++j)
-      if (i / 2 != j / 2 && (end_of(walls, i) - end_of(walls, j)).norm() <= tolerance &&
-          groups.find(i) != groups.find(j ^ 1U) && groups.find(i ^ 1U) != groups.find(j))
-        groups.unite(i, j);
+  std::vector<int> near;
+  for (std::size_t i = 0; i < ends; ++i) {
+    grid.list_near(end_of(walls, i), tolerance, near);
+    for (const int wall : near)
+      for (const std::size_t j : {2 * static_cast<std::size_t>(wall), 2 * static_cast<std::size_t>(wall) + 1})
+        if (j > i && i / 2 != j / 2 && (end_of(walls, i) - end_of(walls, j)).norm() <= tolerance &&
+            groups.find(i) != groups.find(j ^ 1U) && groups.find(i ^ 1U) != groups.find(j))
+          groups.unite(i, j);
+  }
   std::vector<std::size_t> junction_of(ends, ends);
   std::vector<Junction> junctions;
   for (std::size_t i = 0; i < ends; ++i) {
@@ -76,9 +80,13 @@ std::vector<Junction> join_ends(const std::vector<Segment>& walls, double tolera
 }
 
 /// An end that touches the interior of another wall joins it: the wall passes by with two arms.
-void join_interiors(const std::vector<Segment>& walls, double tolerance, std::vector<Junction>& junctions) {
-  for (Junction& junction : junctions)
-    for (std::size_t w = 0; w < walls.size(); ++w) {
+void join_interiors(const std::vector<Segment>& walls, const WallGrid& grid, double tolerance,
+                    std::vector<Junction>& junctions) {
+  std::vector<int> near;
+  for (Junction& junction : junctions) {
+    grid.list_near(junction.position, tolerance, near);
+    for (const int index : near) {
+      const auto w = static_cast<std::size_t>(index);
       const bool ends_here =
           std::any_of(junction.arms.begin(), junction.arms.end(), [w](const Arm& arm) { return arm.wall == w; });
       if (ends_here || geometry::distance(junction.position, walls[w]) > tolerance) continue;
@@ -88,6 +96,7 @@ void join_interiors(const std::vector<Segment>& walls, double tolerance, std::ve
       junction.arms.push_back({w, direction});
       junction.arms.push_back({w, geometry::wrap_angle(direction + kPi)});
     }
+  }
 }
 
 /// Walls that go straight on at a junction are one.
@@ -159,14 +168,20 @@ double straightness(const WallLandmark& wall, const std::vector<WallEnd>& ends) 
   return worst;
 }
 
-/// Crossing of a ray with a segment: the distance along the ray, or infinity. [m]
-double crossing(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, const Segment& segment) {
-  const Eigen::Vector2d along = segment.b - segment.a, to = segment.a - origin;
-  const double det = along.x() * direction.y() - along.y() * direction.x();
-  if (std::abs(det) < 1e-12) return std::numeric_limits<double>::infinity();
-  const double distance = (along.x() * to.y() - along.y() * to.x()) / det;
-  const double share = (direction.x() * to.y() - direction.y() * to.x()) / det;
-  return distance > 0.0 && share >= 0.0 && share <= 1.0 ? distance : std::numeric_limits<double>::infinity();
+/// The plan's walls that have a length.
+std::vector<Segment> surfaces_of(const geometry::FloorPlan& plan) {
+  std::vector<Segment> surfaces;
+  for (const Segment& wall : plan.walls)
+    if (wall.length() > 0.0) surfaces.push_back(wall);
+  return surfaces;
+}
+
+/// Walls by the wall that they are a part of; of the others' groups none.
+std::vector<std::vector<std::size_t>> members(Groups& groups, std::size_t walls) {
+  std::vector<std::vector<std::size_t>> parts(walls);
+  for (std::size_t w = 0; w < walls; ++w) parts[groups.find(w)].push_back(w);
+  std::erase_if(parts, [](const std::vector<std::size_t>& part) { return part.empty(); });
+  return parts;
 }
 
 }  // namespace
@@ -181,21 +196,18 @@ Eigen::Matrix2d WallLandmark::plan_covariance(double along_m, double uncertainty
 }
 
 LandmarkMap::LandmarkMap(const geometry::FloorPlan& plan, const LandmarkMapParams& params)
-    : params_(params), uncertainty_m_(plan.uncertainty_m) {
-  for (const Segment& wall : plan.walls)
-    if (wall.length() > 0.0) surfaces_.push_back(wall);
+    : params_(params), uncertainty_m_(plan.uncertainty_m), surfaces_(surfaces_of(plan)), grid_(surfaces_) {
   const double tolerance = std::max(params.join_tolerance_m, 3.0 * plan.uncertainty_m);
   std::vector<int> junction_of_end;
-  std::vector<Junction> junctions = join_ends(surfaces_, tolerance, junction_of_end);
-  join_interiors(surfaces_, tolerance, junctions);
+  std::vector<Junction> junctions = join_ends(surfaces_, grid_, tolerance, junction_of_end);
+  join_interiors(surfaces_, grid_, tolerance, junctions);
 
   Groups groups = join_collinear(surfaces_, junctions, params.max_collinear_turn_rad);
-  for (std::size_t first = 0; first < surfaces_.size(); ++first) {
-    if (groups.find(first) != first) continue;
+  for (const std::vector<std::size_t>& parts : members(groups, surfaces_.size())) {
     std::vector<WallEnd> ends;  // two by two
-    for (std::size_t w = first; w < surfaces_.size(); ++w)
-      if (groups.find(w) == first)
-        for (const std::size_t end : {2 * w, 2 * w + 1}) ends.push_back({end_of(surfaces_, end), junction_of_end[end]});
+    for (const std::size_t part : parts)
+      for (const std::size_t end : {2 * part, 2 * part + 1})
+        ends.push_back({end_of(surfaces_, end), junction_of_end[end]});
     const WallLandmark whole = wall_through(ends);
     const bool straight = straightness(whole, ends) <= tolerance;
     const auto keep = [&](const WallLandmark& wall) {
@@ -268,21 +280,7 @@ bool LandmarkMap::sees(const Eigen::Vector2d& viewpoint, const Eigen::Vector2d& 
   const Eigen::Vector2d way = target - viewpoint;
   const double reach = way.norm() - margin_m;
   if (reach <= 0.0) return true;
-  const Eigen::Vector2d direction = way.normalized();
-  return std::none_of(surfaces_.begin(), surfaces_.end(),
-                      [&](const Segment& surface) { return crossing(viewpoint, direction, surface) < reach; });
-}
-
-double LandmarkMap::distance_to_surface(const Eigen::Vector2d& point) const {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Segment& surface : surfaces_) nearest = std::min(nearest, geometry::distance(point, surface));
-  return nearest;
-}
-
-double LandmarkMap::cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_range_m) const {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Segment& surface : surfaces_) nearest = std::min(nearest, crossing(origin, direction, surface));
-  return nearest <= max_range_m ? nearest : std::numeric_limits<double>::infinity();
+  return grid_.first_crossing(viewpoint, way.normalized(), reach) >= reach;
 }
 
 }  // namespace credo::localization

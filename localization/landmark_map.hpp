@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/floor_plan.hpp"
+#include "localization/wall_grid.hpp"
 #include "perception/scene.hpp"
 #include "tracking/track.hpp"
 
@@ -92,11 +93,20 @@ class LandmarkMap {
     return sees(viewpoint, landmark, params_.visibility_margin_m);
   }
 
-  /// Distance of a point to the nearest wall of the plan; infinity without walls. [m]
-  [[nodiscard]] double distance_to_surface(const Eigen::Vector2d& point) const;
+  /// Whether a point is at most that far from a wall of the plan.
+  [[nodiscard]] bool on_surface(const Eigen::Vector2d& point, double tolerance_m) const {
+    return grid_.any_near(point, tolerance_m);
+  }
 
-  /// Distance to the first wall of the plan along a ray, up to `max_range_m`; infinity where there is none. [m]
-  [[nodiscard]] double cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_range_m) const;
+  /// Distance to the first wall of the plan along a ray, if below `max_range_m`; infinity where there is none. [m]
+  [[nodiscard]] double cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_range_m) const {
+    return grid_.first_crossing(origin, direction, max_range_m);
+  }
+  /// The same with the wall's normal.
+  [[nodiscard]] RayHit first_hit(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction,
+                                 double max_range_m) const {
+    return grid_.first_hit(origin, direction, max_range_m);
+  }
 
  private:
   void cut_walls_at_points(double tolerance);
@@ -104,6 +114,7 @@ class LandmarkMap {
   LandmarkMapParams params_;
   double uncertainty_m_ = 0.0;
   std::vector<geometry::Segment> surfaces_;
+  WallGrid grid_;  ///< of the surfaces
   std::vector<WallLandmark> walls_;
   std::vector<PointLandmark> points_;
 };

@@ -38,15 +38,20 @@ evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& eviden
                             agreement_belief(evidence, params),
                             bearing_belief(evidence, params),
                             evidence.separation ? params.separation(*evidence.separation) : BinaryMass::vacuous()};
-  const bool missed_too = params.method == perception::Method::kPaper;  // "the p tracks managed by the robot"
-  std::vector<evidence::Part> parts;
-  for (const tracking::Track& track : evidence.tracks) {
-    if (track.landmark == tracking::kNoLandmark) continue;
-    if (track.state != tracking::TrackState::kTracked && !missed_too) continue;
+  const auto part_of = [&params](const tracking::Track& track) {
     const bool wall = track.type == perception::PrimitiveType::kWall;
-    parts.push_back({track.existence, wall ? params.wall_reliability : params.other_reliability});
+    return evidence::Part{track.existence, wall ? params.wall_reliability : params.other_reliability};
+  };
+  if (params.method == perception::Method::kDefault) {
+    evidence::PartMean parts;
+    for (const tracking::Track& track : evidence.tracks)
+      if (track.landmark != tracking::kNoLandmark && track.state == tracking::TrackState::kTracked)
+        parts.add(part_of(track));
+    return evidence::whole_from_mean(criteria, parts.mean());
   }
-  if (params.method == perception::Method::kDefault) return evidence::whole_from_mean_part(criteria, parts);
+  std::vector<evidence::Part> parts;  // "the p tracks managed by the robot", the missed ones too
+  for (const tracking::Track& track : evidence.tracks)
+    if (track.landmark != tracking::kNoLandmark) parts.push_back(part_of(track));
   const auto fused = evidence::whole_from_all_parts(criteria, parts, evidence::FusionRule::kDempster);
   return fused.value_or(evidence::FusedBinaryMass{BinaryMass::vacuous(), 1.0});
 }

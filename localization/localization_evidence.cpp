@@ -40,7 +40,7 @@ PlanAgreement agreement_of(const Primitive& primitive, const LandmarkMap& map, c
                 primitive.sigma_range_m * primitive.sigma_range_m + map.uncertainty_m() * map.uncertainty_m());
   const double tolerance =
       std::clamp(params.on_plan_sigmas * sigma, params.on_plan_m, std::max(params.on_plan_m, params.on_plan_at_most_m));
-  if (map.distance_to_surface(seen) <= tolerance) return PlanAgreement::kOnPlan;
+  if (map.on_surface(seen, tolerance)) return PlanAgreement::kOnPlan;
   return map.sees(viewpoint, seen, tolerance) ? PlanAgreement::kBefore : PlanAgreement::kBehind;
 }
 

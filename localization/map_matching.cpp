@@ -33,74 +33,106 @@ BinaryMass accepted(std::span<const BinaryMass> criteria) {
   return {fused.mass.yes, fused.mass.no, fused.mass.unknown + fused.mass.conflict};
 }
 
+constexpr std::size_t kUsualPrimitives = 256;
+constexpr std::size_t kUsualCandidates = 64;  // of one primitive
+
 /// How far [low, high] reaches beyond [0, length]. [m]
 double excess_of(double low, double high, double length) { return std::max({0.0, -low, high - length}); }
 
 }  // namespace
 
-BinaryMass MapMatcher::wall_evidence(const Primitive& wall, const WallLandmark& landmark,
-                                     const PoseEstimate& pose) const {
-  const geometry::Pose2& T = pose.pose;
-  const double landmark_angle = std::atan2(landmark.direction.y(), landmark.direction.x());
-  const double turn = std::abs(geometry::wrap_line_angle(wall.line.angle + T.theta - landmark_angle));
-  const Vector2d centroid = T * wall.line.centroid;
-  const double across = std::abs(landmark.normal().dot(centroid - landmark.extent.a));
-  const double at = (centroid - landmark.extent.a).dot(landmark.direction);
-  const double end_1 = (T * wall.extent.a - landmark.extent.a).dot(landmark.direction);
-  const double end_2 = (T * wall.extent.b - landmark.extent.a).dot(landmark.direction);
-  const double low = std::min(end_1, end_2), high = std::max(end_1, end_2);
-  if (params_.method == Method::kPaper) {
-    const std::array criteria{
-        params_.paper_wall_angle_deg(to_degrees(turn)),
-        params_.paper_wall_length_m(std::abs(wall.extent.length() - landmark.length_m)),
-        params_.paper_wall_center_m((T * wall.extent.centre() - landmark.extent.centre()).norm())};
-    return accepted(criteria);
+MapMatcher::MapMatcher(const LandmarkMap& map, const MapMatchingParams& params) : map_(&map), params_(params) {
+  matcher_.reserve(kUsualCandidates);
+  visible_.reserve(kUsualPrimitives);
+  evidence_.reserve(kUsualPrimitives);
+  candidates_.reserve(kUsualPrimitives);
+  claims_.reserve(kUsualPrimitives);
+  matches_.reserve(kUsualPrimitives);
+}
+
+/// A wall primitive in the map frame.
+struct MapMatcher::SeenWall {
+  SeenWall(const Primitive& wall, const geometry::Pose2& T_map_base)
+      : primitive(&wall),
+        centroid(T_map_base * wall.line.centroid),
+        lever(centroid - T_map_base.translation()),
+        extent{T_map_base * wall.extent.a, T_map_base * wall.extent.b},
+        angle(wall.line.angle + T_map_base.theta) {}
+
+  [[nodiscard]] double turn_from(const WallLandmark& landmark) const {
+    return std::abs(geometry::wrap_line_angle(angle - std::atan2(landmark.direction.y(), landmark.direction.x())));
   }
+
+  const Primitive* primitive;
+  Vector2d centroid;
+  Vector2d lever;  ///< from the base to the centroid
+  geometry::Segment extent;
+  double angle;
+};
+
+BinaryMass MapMatcher::paper_wall_evidence(const SeenWall& wall, const WallLandmark& landmark) const {
+  const std::array criteria{params_.paper_wall_angle_deg(to_degrees(wall.turn_from(landmark))),
+                            params_.paper_wall_length_m(std::abs(wall.primitive->extent.length() - landmark.length_m)),
+                            params_.paper_wall_center_m((wall.extent.centre() - landmark.extent.centre()).norm())};
+  return accepted(criteria);
+}
+
+BinaryMass MapMatcher::wall_evidence(const SeenWall& wall, const WallLandmark& landmark,
+                                     const PoseEstimate& pose) const {
+  const double end_1 = (wall.extent.a - landmark.extent.a).dot(landmark.direction);
+  const double end_2 = (wall.extent.b - landmark.extent.a).dot(landmark.direction);
+  const double low = std::min(end_1, end_2), high = std::max(end_1, end_2);
   if (high < 0.0 || low > landmark.length_m) return kDenied;
+  const double across = std::abs(landmark.normal().dot(wall.centroid - landmark.extent.a));
+  const double at = (wall.centroid - landmark.extent.a).dot(landmark.direction);
   const double u = map_->uncertainty_m();
   const Matrix2d plan = landmark.plan_covariance(std::clamp(at, 0.0, landmark.length_m), u);
-  const double sigma_turn =
-      std::sqrt(wall.line.sigma_angle * wall.line.sigma_angle + pose.covariance(2, 2) + plan(1, 1));
   // Across the map's line: n^T (t + R c), by the pose: (n_x, n_y, n^T R turned(c)).
-  const Vector2d lever = centroid - T.translation();
+  const geometry::LineEstimate& line = wall.primitive->line;
   const Eigen::Vector3d by_pose(landmark.normal().x(), landmark.normal().y(),
-                                landmark.normal().dot(Vector2d(-lever.y(), lever.x())));
+                                landmark.normal().dot(Vector2d(-wall.lever.y(), wall.lever.x())));
   const double sigma_across =
-      std::sqrt(wall.line.sigma_across * wall.line.sigma_across + by_pose.dot(pose.covariance * by_pose) + plan(0, 0));
+      std::sqrt(line.sigma_across * line.sigma_across + by_pose.dot(pose.covariance * by_pose) + plan(0, 0));
+  const BinaryMass by_offset = params_.wall_across(across / sigma_across);
+  if (by_offset.yes == 0.0 && by_offset.no >= params_.wall_angle.max_yes) return kDenied;  // whatever the angle says
+  const double sigma_turn = std::sqrt(line.sigma_angle * line.sigma_angle + pose.covariance(2, 2) + plan(1, 1));
   const double along_variance = landmark.direction.dot(pose.covariance.topLeftCorner<2, 2>() * landmark.direction);
   const double sigma_end = std::sqrt(along_variance + u * u + params_.wall_end_sigma_m * params_.wall_end_sigma_m);
-  const std::array criteria{params_.wall_angle(turn / sigma_turn), params_.wall_across(across / sigma_across),
+  const std::array criteria{params_.wall_angle(wall.turn_from(landmark) / sigma_turn), by_offset,
                             params_.wall_excess(excess_of(low, high, landmark.length_m) / sigma_end)};
   return accepted(criteria);
 }
 
-BinaryMass MapMatcher::point_evidence(const perception::Scene& scene, const Primitive& point,
-                                      const VisiblePoint& landmark) const {
-  const Vector2d origin = point.bearing_only ? scene.camera_origin : Vector2d::Zero();
-  const Vector2d way = landmark.position_in_base - origin;
-  const double range = way.norm();
-  if (range < 1e-3) return kDenied;
-  const double off = std::abs(geometry::angle_difference(std::atan2(way.y(), way.x()), point.azimuth));
+BinaryMass MapMatcher::point_evidence(const Primitive& point, const VisiblePoint& landmark) const {
+  const PolarView& view = point.bearing_only ? landmark.from_camera : landmark.from_base;
+  if (view.range_m < 1e-3) return kDenied;
+  const double off = std::abs(geometry::angle_difference(view.azimuth, point.azimuth));
   const bool same_type = point.bearing_only || point.type == landmark.type;
   if (params_.method == Method::kPaper) {
     if (point.bearing_only || !same_type) return kDenied;
-    const std::array criteria{params_.paper_point_range_m(std::abs(point.range_m - range)),
+    const std::array criteria{params_.paper_point_range_m(std::abs(point.range_m - view.range_m)),
                               params_.paper_point_azimuth_deg(to_degrees(off))};
     return accepted(criteria);
   }
-  const Vector2d ahead = way / range, aside(-ahead.y(), ahead.x());
-  const Matrix2d& C = landmark.covariance_in_base;
-  const double sigma_off =
-      std::sqrt(aside.dot(C * aside) / (range * range) + point.sigma_azimuth * point.sigma_azimuth);
+  const double sigma_off = std::sqrt(view.azimuth_variance + point.sigma_azimuth * point.sigma_azimuth);
   const BinaryMass by_azimuth = params_.point_azimuth(off / sigma_off);
   if (by_azimuth.yes == 0.0 && by_azimuth.no >= params_.point_range.max_yes) return kDenied;  // whatever the range says
   std::array<BinaryMass, 3> criteria{by_azimuth, BinaryMass::vacuous(),
                                      same_type ? BinaryMass::vacuous() : params_.other_type};
   if (!point.bearing_only) {
-    const double sigma_range = std::sqrt(ahead.dot(C * ahead) + point.sigma_range_m * point.sigma_range_m);
-    criteria[1] = params_.point_range(std::abs(point.range_m - range) / sigma_range);
+    const double sigma_range = std::sqrt(view.range_variance + point.sigma_range_m * point.sigma_range_m);
+    criteria[1] = params_.point_range(std::abs(point.range_m - view.range_m) / sigma_range);
   }
   return accepted(criteria);
+}
+
+/// \param way  to the point
+MapMatcher::PolarView MapMatcher::view(const Vector2d& way, const Matrix2d& covariance) {
+  const double range = way.norm();
+  if (range == 0.0) return {};
+  const Vector2d ahead = way / range, aside(-ahead.y(), ahead.x());
+  return {std::atan2(way.y(), way.x()), range, aside.dot(covariance * aside) / (range * range),
+          ahead.dot(covariance * ahead)};
 }
 
 int MapMatcher::decide() {
@@ -124,12 +156,13 @@ const std::vector<MapMatch>& MapMatcher::match_walls(const perception::Scene& sc
     if (wall.type != PrimitiveType::kWall) continue;
     evidence_.clear();
     candidates_.clear();
-    const Vector2d centroid = pose.pose * wall.line.centroid;
+    const SeenWall seen(wall, pose.pose);
     for (std::size_t w = 0; w < map_->walls().size(); ++w) {
       const WallLandmark& landmark = map_->walls()[w];
-      const BinaryMass m = wall_evidence(wall, landmark, pose);
+      const BinaryMass m =
+          params_.method == Method::kPaper ? paper_wall_evidence(seen, landmark) : wall_evidence(seen, landmark, pose);
       if (m.yes <= m.no) continue;
-      const double at = std::clamp((centroid - landmark.extent.a).dot(landmark.direction), 0.0, landmark.length_m);
+      const double at = std::clamp((seen.centroid - landmark.extent.a).dot(landmark.direction), 0.0, landmark.length_m);
       if (!map_->shows(viewpoint, landmark.extent.a + at * landmark.direction)) continue;
       evidence_.push_back(m);
       candidates_.push_back(map_->wall_id(w));
@@ -142,29 +175,30 @@ const std::vector<MapMatch>& MapMatcher::match_walls(const perception::Scene& sc
   return matches_;
 }
 
-void MapMatcher::list_visible_points(const PoseEstimate& pose, std::span<const tracking::LandmarkId> taken) {
+void MapMatcher::list_visible_points(const PoseEstimate& pose, const Vector2d& camera_origin,
+                                     std::span<const tracking::LandmarkId> taken) {
   visible_.clear();
   const Vector2d viewpoint = pose.pose.translation();
   const geometry::Pose2 T_base_map = pose.pose.inverse();
-  const double u = map_->uncertainty_m();
+  const double u = map_->uncertainty_m(), farthest_squared = params_.farthest_m * params_.farthest_m;
   for (std::size_t k = 0; k < map_->points().size(); ++k) {
     const PointLandmark& point = map_->points()[k];
+    if ((point.position - viewpoint).squaredNorm() > farthest_squared) continue;
     const tracking::LandmarkId id = map_->point_id(k);
     if (std::find(taken.begin(), taken.end(), id) != taken.end()) continue;
     const auto type = map_->type_from(point, viewpoint);
     if (!type || !map_->shows(viewpoint, point.position)) continue;
-    VisiblePoint visible{
-        .id = id, .type = *type, .position_in_base = T_base_map * point.position, .covariance_in_base = {}};
-    const auto J = base_coordinates_by_pose(pose.pose, visible.position_in_base);
-    visible.covariance_in_base = J * pose.covariance * J.transpose() + u * u * Matrix2d::Identity();
-    visible_.push_back(visible);
+    const Vector2d in_base = T_base_map * point.position;
+    const auto J = base_coordinates_by_pose(pose.pose, in_base);
+    const Matrix2d covariance = J * pose.covariance * J.transpose() + u * u * Matrix2d::Identity();
+    visible_.push_back({id, *type, view(in_base, covariance), view(in_base - camera_origin, covariance)});
   }
 }
 
 const std::vector<MapMatch>& MapMatcher::match_points(const perception::Scene& scene, std::span<const int> primitives,
                                                       const PoseEstimate& pose,
                                                       std::span<const tracking::LandmarkId> taken) {
-  list_visible_points(pose, taken);
+  list_visible_points(pose, scene.camera_origin, taken);
   claims_.clear();
   for (const int p : primitives) {
     const Primitive& point = scene.primitives[static_cast<std::size_t>(p)];
@@ -172,7 +206,7 @@ const std::vector<MapMatch>& MapMatcher::match_points(const perception::Scene& s
     evidence_.clear();
     candidates_.clear();
     for (const VisiblePoint& landmark : visible_) {
-      const BinaryMass m = point_evidence(scene, point, landmark);
+      const BinaryMass m = point_evidence(point, landmark);
       if (m.yes <= m.no) continue;
       evidence_.push_back(m);
       candidates_.push_back(landmark.id);
@@ -183,8 +217,9 @@ const std::vector<MapMatch>& MapMatcher::match_points(const perception::Scene& s
     claims_.push_back({.primitive = p, .landmark = candidates_[b], .yes = evidence_[b].yes});
   }
   // A landmark that several primitives claim is decided the other way round.
-  std::stable_sort(claims_.begin(), claims_.end(),
-                   [](const MapMatch& a, const MapMatch& b) { return a.landmark < b.landmark; });
+  std::sort(claims_.begin(), claims_.end(), [](const MapMatch& a, const MapMatch& b) {
+    return a.landmark != b.landmark ? a.landmark < b.landmark : a.primitive < b.primitive;
+  });
   matches_.clear();
   for (std::size_t first = 0, last = 0; first < claims_.size(); first = last) {
     evidence_.clear();

@@ -36,6 +36,7 @@ struct MapMatchingParams {
                                    .max_no = 0.9,
                                    .no_zero_until = 3.0,
                                    .no_full_from = 8.0};
+  double farthest_m = 60.0;        ///< a point of the map farther than this is not looked for
   double wall_end_sigma_m = 0.05;  ///< of an observed wall's end: beam spacing, mixed readings, skirting
   evidence::RampBelief point_range{.max_yes = 0.8,
                                    .yes_full_until = 1.0,
@@ -96,7 +97,7 @@ struct MapMatch {
 class MapMatcher {
  public:
   /// \param map  must outlive this
-  explicit MapMatcher(const LandmarkMap& map, const MapMatchingParams& params = {}) : map_(&map), params_(params) {}
+  explicit MapMatcher(const LandmarkMap& map, const MapMatchingParams& params = {});
 
   /// The wall primitives among `primitives`; several may be pieces of one wall of the map.
   const std::vector<MapMatch>& match_walls(const perception::Scene& scene, std::span<const int> primitives,
@@ -108,18 +109,28 @@ class MapMatcher {
                                             std::span<const tracking::LandmarkId> taken);
 
  private:
+  /// A point in polar coordinates, with the variances that the pose and the plan give it.
+  struct PolarView {
+    double azimuth = 0.0;
+    double range_m = 0.0;
+    double azimuth_variance = 0.0;
+    double range_variance = 0.0;
+  };
   struct VisiblePoint {
     tracking::LandmarkId id = tracking::kNoLandmark;
     perception::PrimitiveType type = perception::PrimitiveType::kOther;
-    Eigen::Vector2d position_in_base = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d covariance_in_base = Eigen::Matrix2d::Zero();  ///< from the pose and the plan
+    PolarView from_base, from_camera;
   };
+  struct SeenWall;
 
-  void list_visible_points(const geometry::PoseEstimate& pose, std::span<const tracking::LandmarkId> taken);
+  [[nodiscard]] static PolarView view(const Eigen::Vector2d& way, const Eigen::Matrix2d& covariance);
+  void list_visible_points(const geometry::PoseEstimate& pose, const Eigen::Vector2d& camera_origin,
+                           std::span<const tracking::LandmarkId> taken);
   /// m_m, its conflict as ignorance; all NO where the conflict or NO forbids the match.
-  [[nodiscard]] evidence::BinaryMass wall_evidence(const perception::Primitive& wall, const WallLandmark& landmark,
+  [[nodiscard]] evidence::BinaryMass wall_evidence(const SeenWall& wall, const WallLandmark& landmark,
                                                    const geometry::PoseEstimate& pose) const;
-  [[nodiscard]] evidence::BinaryMass point_evidence(const perception::Scene& scene, const perception::Primitive& point,
+  [[nodiscard]] evidence::BinaryMass paper_wall_evidence(const SeenWall& wall, const WallLandmark& landmark) const;
+  [[nodiscard]] evidence::BinaryMass point_evidence(const perception::Primitive& point,
                                                     const VisiblePoint& landmark) const;
   /// The candidate that the method decides for, as an index into `evidence_`, or -1.
   [[nodiscard]] int decide();

@@ -16,8 +16,6 @@ namespace {
 using geometry::Pose2;
 using perception::Primitive;
 
-constexpr std::size_t kSteps = 3;
-
 /// Where a track that was seen before the step is to be seen after it. [rad]
 double azimuth_after(const Primitive& seen, const Pose2& step) {
   if (seen.bearing_only) return geometry::wrap_angle(seen.azimuth - step.theta);

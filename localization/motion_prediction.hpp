@@ -29,7 +29,7 @@ struct ConstantVelocityParams {
 /// The robot's latest steps, and what they say of the next one.
 class MotionPredictor {
  public:
-  explicit MotionPredictor(const ConstantVelocityParams& params = {}) : params_(params) {}
+  explicit MotionPredictor(const ConstantVelocityParams& params = {}) : params_(params) { steps_.reserve(kSteps); }
 
   /// One step from fix to fix. \param seconds  > 0
   void add(const geometry::Pose2& motion, double seconds);
@@ -41,6 +41,7 @@ class MotionPredictor {
   [[nodiscard]] geometry::PoseEstimate predict(double seconds) const;
 
  private:
+  static constexpr std::size_t kSteps = 3;
   struct Step {
     geometry::Pose2 motion;
     double seconds = 0.0;

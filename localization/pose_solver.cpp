@@ -333,6 +333,13 @@ void PoseSolver::State::carry_over(const PoseState::Vector& x) {
 }
 
 PoseSolver::PoseSolver(const PoseSolverParams& params) : state_(std::make_unique<State>()) {
+  constexpr std::size_t kUsualObservations = 256;
+  state_->residuals.directions.reserve(kUsualObservations);
+  state_->residuals.whiteners.reserve(kUsualObservations);
+  state_->linearised.reserve(kUsualObservations);
+  state_->solution.mahalanobis_squared.reserve(kUsualObservations);
+  state_->solution.outlier.reserve(kUsualObservations);
+  state_->solution.linearised.reserve(kUsualObservations);
   state_->params = params;
   for (const int dimension : {1, 2})
     state_->gates[static_cast<std::size_t>(dimension - 1)] = chi_square_gate(dimension, params.outlier_probability);

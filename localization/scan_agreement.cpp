@@ -30,7 +30,11 @@ std::optional<double> ScanAgreement::share(const ScanAgreementParams& params) co
 }
 
 ScanMatcher::ScanMatcher(const LandmarkMap& map, const ScanAgreementParams& params)
-    : map_(&map), params_(params), field_(map.surfaces()) {}
+    : map_(&map), params_(params), field_(map.surfaces()) {
+  const auto most = static_cast<std::size_t>(std::max(0, params.most_points));
+  chosen_.reserve(most);
+  turned_.reserve(most);
+}
 
 ScanAgreement ScanMatcher::compare(std::span<const ScanPoint> points, const Pose2& T_map_base) const {
   ScanAgreement agreement;

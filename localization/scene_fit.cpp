@@ -15,12 +15,22 @@ using tracking::kNoLandmark;
 using tracking::LandmarkId;
 using tracking::Match;
 
+constexpr std::size_t kUsual = 256;  // primitives or segments
+
 MapMatchingParams given_matching(MapMatchingParams params) {
   params.method = perception::Method::kDefault;
   return params;
 }
 
 }  // namespace
+
+SceneFit::SceneFit() {
+  solution.mahalanobis_squared.reserve(kUsual);
+  solution.outlier.reserve(kUsual);
+  solution.linearised.reserve(kUsual);
+  observations.reserve(kUsual);
+  new_matches.reserve(kUsual);
+}
 
 SceneFitter::SceneFitter(const LandmarkMap& map, const sensors::Rig& rig, const SceneFitParams& params)
     : map_(&map),
@@ -29,7 +39,12 @@ SceneFitter::SceneFitter(const LandmarkMap& map, const sensors::Rig& rig, const 
       first_matcher_(map, given_matching(params.matching)),
       solver_(params.solver),
       uncalibrated_(calibrated_pose(rig, {}, 2 * (map.junction_count() + map.landmark_count()))),
-      scan_matcher_(map, params.scan) {}
+      scan_matcher_(map, params.scan) {
+  wall_in_use_.reserve(kUsual);
+  unmatched_.reserve(kUsual);
+  used_.reserve(kUsual);
+  taken_.reserve(kUsual);
+}
 
 void SceneFitter::fit(const Scene& scene, std::span<const tracking::Track> tracks, std::span<const Match> matches,
                       const CalibratedPose& expected, bool given, SceneFit& fit) {

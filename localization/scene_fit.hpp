@@ -30,6 +30,8 @@ struct SceneFitParams {
 
 /// A pose and what it rests on in one scene.
 struct SceneFit {
+  SceneFit();  ///< with memory for what a scene usually has
+
   CalibratedPose pose;
   PoseSolution solution;
   std::vector<Observation> observations;  ///< that the solution is made of

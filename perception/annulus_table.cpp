@@ -3,8 +3,11 @@
 
 #include "perception/annulus_table.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <stdexcept>
 
@@ -14,6 +17,23 @@ namespace {
 constexpr int kWeightSum = 128;
 constexpr int kWeightShift = 5;  // kWeightSum / AnnulusTable::kScale = 1 << kWeightShift
 static_assert(kWeightSum >> kWeightShift == AnnulusTable::kScale);
+
+constexpr std::size_t kGathered = 256;                   // samples whose pixels are gathered before they are mixed
+using PairBlock = std::array<std::uint16_t, kGathered>;  // two neighbouring pixels each, as they lie in memory
+
+constexpr int kLeftShift = std::endian::native == std::endian::little ? 0 : 8;
+constexpr int kRightShift = 8 - kLeftShift;
+
+/// Nothing but arithmetic on 16 bits, side by side: 255 * kWeightSum fits.
+void mix(const PairBlock& upper, const PairBlock& lower, const std::array<const std::uint8_t*, 4>& weights,
+         std::size_t count, std::int16_t* out) {
+  const auto [w0, w1, w2, w3] = weights;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int sum = w0[i] * (upper[i] >> kLeftShift & 255) + w1[i] * (upper[i] >> kRightShift & 255) +
+                    w2[i] * (lower[i] >> kLeftShift & 255) + w3[i] * (lower[i] >> kRightShift & 255);
+    out[i] = static_cast<std::int16_t>(sum >> kWeightShift);
+  }
+}
 
 int columns_of(double radius_px, double column_px) {
   const int least = static_cast<int>(std::ceil(2.0 * std::numbers::pi * radius_px / column_px));
@@ -37,48 +57,64 @@ AnnulusTable::AnnulusTable(const sensors::OmniCamera& camera, const Eigen::Vecto
     total += static_cast<std::size_t>(row.columns);
     max_columns_ = std::max(max_columns_, row.columns);
   }
-  taps_.reserve(total);
-  usable_.reserve(total);
-  for (const AnnulusRow& row : rows_) add_row(camera, row);
-  if (std::find(usable_.begin(), usable_.end(), std::uint8_t{0}) == usable_.end()) usable_ = {};
+  offsets_.resize(total);
+  for (std::vector<std::uint8_t>& weights : weights_) weights.resize(total);
+  usable_.resize(total);
+  recenter(camera, center_px);
 }
 
-void AnnulusTable::add_row(const sensors::OmniCamera& camera, const AnnulusRow& row) {
+void AnnulusTable::recenter(const sensors::OmniCamera& camera, const Eigen::Vector2d& center_px) {
+  center_px_ = center_px;
+  for (const AnnulusRow& row : rows_) place_row(camera, row);
+  all_usable_ = std::find(usable_.begin(), usable_.end(), std::uint8_t{0}) == usable_.end();
+}
+
+/// The direction of a sample is that of the one before it, turned: no sine, no cosine.
+void AnnulusTable::place_row(const sensors::OmniCamera& camera, const AnnulusRow& row) {
+  const double step = camera.azimuth_sign * 2.0 * std::numbers::pi / row.columns;
+  const Eigen::Rotation2Dd turn(step);
+  const Eigen::Matrix2d R = turn.toRotationMatrix();
+  Eigen::Vector2d direction = camera.image_direction(-camera.T_base_camera.theta);
   for (int column = 0; column < row.columns; ++column) {
-    const double azimuth = 2.0 * std::numbers::pi * column / row.columns - camera.T_base_camera.theta;
-    const Eigen::Vector2d pixel = center_px_ + row.radius_px * camera.image_direction(azimuth);
-    const double u = std::clamp(pixel.x(), 0.0, camera.width_px - 1.0);
-    const double v = std::clamp(pixel.y(), 0.0, camera.height_px - 1.0);
-    const int u0 = std::min(static_cast<int>(u), camera.width_px - 2);
-    const int v0 = std::min(static_cast<int>(v), camera.height_px - 2);
-    const double fu = u - u0;
-    const double fv = v - v0;
-    Tap tap{.offset = v0 * camera.width_px + u0, .weight = {}};
-    const int right = static_cast<int>(std::lround(kWeightSum * fu));
-    const int lower = static_cast<int>(std::lround(kWeightSum * fv));
-    const int both = std::max(static_cast<int>(std::lround(kWeightSum * fu * fv)), right + lower - kWeightSum);
-    tap.weight[3] = static_cast<std::uint8_t>(both);
-    tap.weight[2] = static_cast<std::uint8_t>(lower - both);
-    tap.weight[1] = static_cast<std::uint8_t>(right - both);
-    tap.weight[0] = static_cast<std::uint8_t>(kWeightSum - right - lower + both);
-    taps_.push_back(tap);
-    bool usable = u == pixel.x() && v == pixel.y();
-    for (int corner = 0; usable && corner < 4 && !camera.mask.empty(); ++corner) {
-      usable = tap.weight[corner] == 0 || camera.mask.at<std::uint8_t>(v0 + corner / 2, u0 + corner % 2) != 0;
-    }
-    usable_.push_back(usable ? 1 : 0);
+    place_sample(camera, center_px_ + row.radius_px * direction, row.first + static_cast<std::size_t>(column));
+    direction = R * direction;
   }
 }
 
+void AnnulusTable::place_sample(const sensors::OmniCamera& camera, const Eigen::Vector2d& pixel, std::size_t sample) {
+  const double u = std::clamp(pixel.x(), 0.0, camera.width_px - 1.0);
+  const double v = std::clamp(pixel.y(), 0.0, camera.height_px - 1.0);
+  const int u0 = std::min(static_cast<int>(u), camera.width_px - 2);
+  const int v0 = std::min(static_cast<int>(v), camera.height_px - 2);
+  const double fu = u - u0;
+  const double fv = v - v0;
+  const int right = static_cast<int>(kWeightSum * fu + 0.5);
+  const int lower = static_cast<int>(kWeightSum * fv + 0.5);
+  const int both = std::max(static_cast<int>(kWeightSum * fu * fv + 0.5), right + lower - kWeightSum);
+  const std::array<int, 4> weights{kWeightSum - right - lower + both, right - both, lower - both, both};
+  bool usable = u == pixel.x() && v == pixel.y();
+  for (int corner = 0; corner < 4; ++corner) {
+    weights_[corner][sample] = static_cast<std::uint8_t>(weights[corner]);
+    if (camera.mask.empty() || weights[corner] == 0) continue;
+    usable = usable && camera.mask.at<std::uint8_t>(v0 + corner / 2, u0 + corner % 2) != 0;
+  }
+  offsets_[sample] = v0 * camera.width_px + u0;
+  usable_[sample] = usable ? 1 : 0;
+}
+
 void AnnulusTable::sample(const std::uint8_t* pixels, int row, std::int16_t* out) const {
-  const Tap* tap = taps_.data() + rows_[row].first;
-  const int columns = rows_[row].columns;
-  for (int i = 0; i < columns; ++i, ++tap) {
-    const std::uint8_t* upper = pixels + tap->offset;
-    const std::uint8_t* lower = upper + width_px_;
-    const int sum =
-        tap->weight[0] * upper[0] + tap->weight[1] * upper[1] + tap->weight[2] * lower[0] + tap->weight[3] * lower[1];
-    out[i] = static_cast<std::int16_t>(sum >> kWeightShift);
+  const auto columns = static_cast<std::size_t>(rows_[row].columns);
+  PairBlock upper, lower;
+  for (std::size_t begin = 0; begin < columns; begin += kGathered) {
+    const std::size_t first = rows_[row].first + begin;
+    const std::size_t count = std::min(kGathered, columns - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint8_t* const corner = pixels + offsets_[first + i];
+      std::memcpy(&upper[i], corner, 2);
+      std::memcpy(&lower[i], corner + width_px_, 2);
+    }
+    mix(upper, lower, {&weights_[0][first], &weights_[1][first], &weights_[2][first], &weights_[3][first]}, count,
+        out + begin);
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +23,7 @@ struct AnnulusRow {
 
 /// Where in the image the circles of an annulus lie: for every sample the offset of a pixel and the weights of the 2 x
 /// 2 pixels from there. Made once for a camera and a centre; reading a circle is a gather, no angle is computed.
+/// Offsets and weights lie by corner, not by sample: the gather of pixels is scalar, their mixing is not.
 class AnnulusTable {
  public:
   static constexpr int kScale = 4;  ///< samples are grey levels times this
@@ -32,9 +34,14 @@ class AnnulusTable {
   AnnulusTable(const sensors::OmniCamera& camera, const Eigen::Vector2d& center_px, std::span<const double> radii_px,
                double column_px);
 
+  /// Makes the table anew about another centre, in the same memory.
+  /// \param camera  as at construction
+  void recenter(const sensors::OmniCamera& camera, const Eigen::Vector2d& center_px);
+
   [[nodiscard]] const std::vector<AnnulusRow>& rows() const { return rows_; }
   [[nodiscard]] const Eigen::Vector2d& center_px() const { return center_px_; }
   [[nodiscard]] int max_columns() const { return max_columns_; }
+  [[nodiscard]] std::size_t samples() const { return offsets_.size(); }
 
   /// Grey levels times kScale of a row's samples; samples outside the image repeat its border.
   /// \param pixels  first of the image's pixels, rows of width_px bytes without gaps
@@ -43,21 +50,20 @@ class AnnulusTable {
 
   /// False where a sample needs a pixel outside the image or one that the camera's mask forbids.
   [[nodiscard]] bool usable(int row, int column) const {
-    return usable_.empty() || usable_[rows_[row].first + column] != 0;
+    return all_usable_ || usable_[rows_[row].first + column] != 0;
   }
-  [[nodiscard]] bool all_usable() const { return usable_.empty(); }
+  [[nodiscard]] bool all_usable() const { return all_usable_; }
 
  private:
-  struct Tap {
-    std::int32_t offset;
-    std::uint8_t weight[4];  ///< of the pixels at offset, +1, +width, +width+1; sum to 128
-  };
-
-  void add_row(const sensors::OmniCamera& camera, const AnnulusRow& row);
+  void place_row(const sensors::OmniCamera& camera, const AnnulusRow& row);
+  void place_sample(const sensors::OmniCamera& camera, const Eigen::Vector2d& pixel, std::size_t sample);
 
   std::vector<AnnulusRow> rows_;
-  std::vector<Tap> taps_;
-  std::vector<std::uint8_t> usable_;  ///< empty: all
+  std::vector<std::int32_t> offsets_;
+  /// Of the pixels at the offset, +1, +width, +width+1; each sample's sum to 128.
+  std::array<std::vector<std::uint8_t>, 4> weights_;
+  std::vector<std::uint8_t> usable_;
+  bool all_usable_ = true;
   Eigen::Vector2d center_px_;
   int width_px_ = 0;
   int max_columns_ = 0;

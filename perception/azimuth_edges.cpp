@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <numbers>
 
 namespace credo::perception {
 namespace {
 
-constexpr int kBlock = 16;          // columns that are skipped together where nothing exceeds the threshold
+constexpr int kBlock = 16;          // columns that are skipped together where there is no extremum
 constexpr int kLargestTapSum = 32;  // keeps the answer to 255 * AnnulusTable::kScale within 16 bits
 constexpr double kMedianToSigma = 1.4826;
 // Independent pixel noise keeps about this share of its sigma when two rows of pixels are mixed by weights that take
@@ -19,14 +20,47 @@ constexpr double kMedianToSigma = 1.4826;
 // filter's own averaging.
 constexpr double kInterpolationNoise = 0.816;
 
-int largest_magnitude(const std::int16_t* values) {
-  std::int16_t largest = 0;
-  for (int i = 0; i < kBlock; ++i) {
-    const auto magnitude = static_cast<std::int16_t>(values[i] < 0 ? -values[i] : values[i]);
-    largest = std::max(largest, magnitude);
+/// Marks the columns where the answer has a local extremum of at least `least`. Side by side, without branches.
+/// \param response  can be read one column before and one behind
+void mark_extrema(const std::int16_t* response, int columns, std::int16_t least, std::uint8_t* marks) {
+  for (int i = 0; i < columns; ++i) {
+    const std::int16_t before = response[i - 1], here = response[i], after = response[i + 1];
+    const auto fallen = static_cast<std::int16_t>(-least);
+    const bool rising = (here >= least) & (here >= before) & (here > after);
+    const bool falling = (here <= fallen) & (here <= before) & (here < after);
+    marks[i] = static_cast<std::uint8_t>(rising | falling);
   }
-  return largest;
 }
+
+bool any_of_block(const std::uint8_t* marks) {
+  std::array<std::uint64_t, kBlock / 8> words;
+  std::memcpy(words.data(), marks, kBlock);
+  return (words[0] | words[1]) != 0;
+}
+
+/// exp(-x^2 / 2), looked up to 1e-4: how far the answers to two steps at a distance of x widths overlap.
+class Overlap {
+ public:
+  Overlap() {
+    for (int i = 0; i <= kSteps; ++i) {
+      const double x = i * kStep;
+      values_[static_cast<std::size_t>(i)] = static_cast<float>(std::exp(-0.5 * x * x));
+    }
+  }
+  double operator()(double x) const {
+    const double at = x * (1.0 / kStep);
+    if (!(at < kSteps)) return 0.0;
+    const auto i = static_cast<std::size_t>(at);
+    return values_[i] + (at - static_cast<double>(i)) * (values_[i + 1] - values_[i]);
+  }
+
+ private:
+  static constexpr int kSteps = 256;
+  static constexpr double kStep = 1.0 / 32.0;
+  std::array<float, kSteps + 1> values_{};
+};
+
+double length(double a, double b) { return std::sqrt(a * a + b * b); }
 
 }  // namespace
 
@@ -34,7 +68,9 @@ AzimuthEdgeFilter::AzimuthEdgeFilter(const EdgeFilterParams& params, double colu
     : params_(params),
       column_px_(column_px),
       samples_(max_columns + 2 * kMargin),
+      marks_(max_columns),
       response_(max_columns + 2 * kMargin) {
+  widths_.reserve(samples_.size());
   const double sigma = std::max(1.0, params.sigma_px / column_px);  // in columns, at least one
   std::array<double, kReach> ideal{};
   double sum = 0.0;
@@ -134,20 +170,19 @@ void AzimuthEdgeFilter::measure(const AnnulusTable& table, const std::uint8_t* p
 
 void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixels, std::vector<EdgeHit>& hits) {
   const double threshold = std::max(params_.least_step * gain_, params_.least_step_sigmas * noise_ * noise_gain_);
-  const int least = static_cast<int>(std::min(threshold, 32767.0));
+  const auto least = static_cast<std::int16_t>(std::min(threshold, 32767.0));
+  const double saturated_sample = params_.saturated_level * AnnulusTable::kScale;
   for (int row = 0; row < static_cast<int>(table.rows().size()); ++row) {
     filter_row(table, pixels, row);
-    const std::int16_t* response = response_.data() + kMargin;
     const int columns = table.rows()[row].columns;
+    mark_extrema(response_.data() + kMargin, columns, least, marks_.data());
+    row_saturates_ =
+        *std::max_element(samples_.begin() + kMargin, samples_.begin() + kMargin + columns) > saturated_sample;
     const std::size_t first = hits.size();
     for (int block = 0; block < columns; block += kBlock) {
-      if (largest_magnitude(response + block) < least) continue;
-      for (int i = block; i < block + kBlock; ++i) {
-        const int here = response[i];
-        const bool rising = here >= least && here >= response[i - 1] && here > response[i + 1];
-        const bool falling = here <= -least && here <= response[i - 1] && here < response[i + 1];
-        if (rising || falling) add_hit(table, row, i, hits);
-      }
+      if (!any_of_block(marks_.data() + block)) continue;
+      for (int i = block; i < block + kBlock; ++i)
+        if (marks_[i] != 0) add_hit(table, row, i, hits);
     }
     separate(table.rows()[row], hits, first);
   }
@@ -157,6 +192,7 @@ void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixe
 /// a1 (m - x1) g(m - x1) + a2 (m - x2) g(m - x2) = 0, so m - x1 = (a2 / a1) d g(d) / g(m - x1) with d = x2 - m. To
 /// first order the last g is 1; the measured heights give a1, a2 by two linear equations with g(d).
 void AzimuthEdgeFilter::separate(const AnnulusRow& circle, std::vector<EdgeHit>& hits, std::size_t first) const {
+  static const Overlap overlap_at;
   const double width = width_columns_ * 2.0 * std::numbers::pi / circle.columns;
   const double reach = params_.neighbour_reach * width;
   double carried = 0.0;  // shift of the later hit by the pair before
@@ -169,7 +205,7 @@ void AzimuthEdgeFilter::separate(const AnnulusRow& circle, std::vector<EdgeHit>&
     if (apparent < reach) {
       double distance = apparent;
       for (int round = 0; round < 3; ++round) {  // the true distance is what the shifts leave of the apparent one
-        const double overlap = std::exp(-0.5 * (distance / width) * (distance / width));
+        const double overlap = overlap_at(distance / width);
         const double a_step = a.step - overlap * b.step;
         const double b_step = b.step - overlap * a.step;
         const double limit = 0.35 * apparent;
@@ -180,13 +216,13 @@ void AzimuthEdgeFilter::separate(const AnnulusRow& circle, std::vector<EdgeHit>&
     }
     const double shift = shift_a + carried;
     a.azimuth -= static_cast<float>(shift);
-    a.sigma = static_cast<float>(std::hypot(a.sigma, params_.neighbour_share * shift));
+    a.sigma = static_cast<float>(length(a.sigma, params_.neighbour_share * shift));
     carried = shift_b;
   }
   if (hits.size() > first && carried != 0.0) {
     EdgeHit& last = hits.back();
     last.azimuth -= static_cast<float>(carried);
-    last.sigma = static_cast<float>(std::hypot(last.sigma, params_.neighbour_share * carried));
+    last.sigma = static_cast<float>(length(last.sigma, params_.neighbour_share * carried));
   }
 }
 
@@ -199,9 +235,8 @@ void AzimuthEdgeFilter::add_hit(const AnnulusTable& table, int row, int column, 
       if (!table.usable(row, (column + i + circle.columns) % circle.columns)) return;
     }
   }
-  std::int16_t brightest = 0;
-  for (int i = -kReach; i <= kReach; ++i) brightest = std::max(brightest, sample[i]);
-  const bool saturated = brightest > params_.saturated_level * AnnulusTable::kScale;
+  const auto brightest = [sample] { return *std::max_element(sample - kReach, sample + kReach + 1); };
+  const bool saturated = row_saturates_ && brightest() > params_.saturated_level * AnnulusTable::kScale;
   const double curvature = std::abs(2.0 * response[0] - response[-1] - response[1]);
   const double between = curvature > 0.0 ? 0.5 * (response[1] - response[-1]) / curvature : 0.0;
   const double sign = response[0] > 0 ? 1.0 : -1.0;

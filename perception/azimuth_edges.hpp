@@ -75,6 +75,8 @@ class AzimuthEdgeFilter {
   double noise_gain_ = 1.0;             ///< 1-sigma of the filter's answer per grey level of noise
   double extremum_gain_ = 1.0;          ///< see hit sigma
   std::vector<std::int16_t> samples_;   ///< kMargin + columns + kMargin
+  bool row_saturates_ = false;          ///< the row that is looked at
+  std::vector<std::uint8_t> marks_;     ///< by column: whether there is an extremum
   std::vector<float> widths_;           ///< scratch of measure()
   std::vector<std::int16_t> response_;  ///< kMargin + columns + kMargin
 };

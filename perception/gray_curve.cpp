@@ -29,9 +29,10 @@ void read_gray_curve(const AnnulusTable& table, const std::uint8_t* pixels, doub
   for (int row = 0; row < circles; ++row) {
     table.sample(pixels, row, scratch.data());
     const int columns = table.rows()[row].columns;
-    for (int bin = 0; bin < bins; ++bin) {
-      const int column = static_cast<int>((2LL * bin * columns + bins) / (2LL * bins)) % columns;
-      curve.values[bin] += scratch[column];
+    int column = 0, rest = bins;  // 2 bin columns + bins = 2 bins column + rest: rounded, without a division
+    for (int bin = 0; bin < bins; ++bin, rest += 2 * columns) {
+      for (; rest >= 2 * bins; rest -= 2 * bins) ++column;
+      curve.values[bin] += scratch[column < columns ? column : 0];
     }
   }
   const float scale = 1.0F / static_cast<float>(AnnulusTable::kScale * circles);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "geometry/angles.hpp"
 
@@ -21,35 +22,51 @@ LineVotes::LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& cam
     const double azimuth = (bin + 0.5) * kTurn / bins_;
     directions_.emplace_back(std::cos(azimuth), std::sin(azimuth));
     in_image_.push_back(camera.image_direction(azimuth - camera.T_base_camera.theta));
-    int usable = 0;
-    for (int row = 0; row < static_cast<int>(annulus.rows().size()); ++row) {
-      const int columns = annulus.rows()[row].columns;
-      const int column = static_cast<int>(std::lround(azimuth / kTurn * columns)) % columns;
-      usable += annulus.usable(row, column) ? 1 : 0;
-    }
-    usable_rows_.push_back(usable);
   }
   begin_.resize(2 * bins_ + 1);
+  begin_of_row_.resize(annulus.rows().size() + 1);
+  count_usable_rows(annulus);
 }
 
-int LineVotes::bin_of(double azimuth) const {
-  const double place = azimuth * (bins_ / kTurn);
-  return (static_cast<int>(std::floor(place)) % bins_ + bins_) % bins_;
+void LineVotes::reserve(std::size_t hits) {
+  slots_.reserve(hits);
+  order_.reserve(hits);
+  used_.reserve(hits);
+  near_.reserve(hits);
+  by_row_.reserve(hits);
+  middle_.reserve(hits);
+  peaks_.reserve(static_cast<std::size_t>(bins_));
 }
+
+void LineVotes::count_usable_rows(const AnnulusTable& annulus) {
+  const auto rows = static_cast<int>(annulus.rows().size());
+  usable_rows_.assign(bins_, rows);
+  if (annulus.all_usable()) return;
+  for (int bin = 0; bin < bins_; ++bin) {
+    for (int row = 0; row < rows; ++row) {
+      const int columns = annulus.rows()[row].columns;
+      const int column = static_cast<int>(std::lround((bin + 0.5) / bins_ * columns)) % columns;
+      if (!annulus.usable(row, column)) --usable_rows_[bin];
+    }
+  }
+}
+
+int LineVotes::bin_of(double azimuth) const { return wrapped(static_cast<int>(std::floor(azimuth * (bins_ / kTurn)))); }
 
 double LineVotes::usable_rows(double azimuth) const { return std::max(1, usable_rows_[bin_of(azimuth)]); }
 
 void LineVotes::count(const std::vector<EdgeHit>& hits) {
   std::fill(begin_.begin(), begin_.end(), 0);
-  for (const EdgeHit& hit : hits) ++begin_[slot_of(hit.step > 0.0F ? 1 : -1, bin_of(hit.azimuth)) + 1];
+  slots_.resize(hits.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    slots_[i] = slot_of(hits[i].step > 0.0F ? 1 : -1, bin_of(hits[i].azimuth));
+    ++begin_[slots_[i] + 1];
+  }
   for (std::size_t slot = 1; slot < begin_.size(); ++slot) begin_[slot] += begin_[slot - 1];
   order_.resize(hits.size());
   used_.assign(hits.size(), 0);
   // Fill every slot in the order of the hits (by row); begin_ moves to the ends, that is one slot on, and back.
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    const int slot = slot_of(hits[i].step > 0.0F ? 1 : -1, bin_of(hits[i].azimuth));
-    order_[begin_[slot]++] = static_cast<std::int32_t>(i);
-  }
+  for (std::size_t i = 0; i < hits.size(); ++i) order_[begin_[slots_[i]]++] = static_cast<std::int32_t>(i);
   std::copy_backward(begin_.begin(), begin_.end() - 1, begin_.end());
   begin_[0] = 0;
 }
@@ -59,7 +76,7 @@ const std::vector<LinePeak>& LineVotes::peaks(double least_share, double least_c
   const double per_bin = static_cast<double>(order_.size()) / (2.0 * bins_);
   for (const int polarity : {-1, 1}) {
     const auto votes = [&](int bin) {
-      const int slot = slot_of(polarity, (bin + bins_) % bins_);
+      const int slot = slot_of(polarity, wrapped(bin));
       return begin_[slot + 1] - begin_[slot];
     };
     const auto together = [&](int bin) { return votes(bin - 1) + votes(bin) + votes(bin + 1); };
@@ -73,8 +90,9 @@ const std::vector<LinePeak>& LineVotes::peaks(double least_share, double least_c
       peaks_.push_back({.azimuth = (bin + 0.5) * kTurn / bins_, .polarity = polarity, .votes = here, .bin = bin});
     }
   }
-  std::stable_sort(peaks_.begin(), peaks_.end(),
-                   [](const LinePeak& a, const LinePeak& b) { return a.votes > b.votes; });
+  std::sort(peaks_.begin(), peaks_.end(), [](const LinePeak& a, const LinePeak& b) {
+    return std::tuple(-a.votes, a.polarity, a.bin) < std::tuple(-b.votes, b.polarity, b.bin);
+  });
   return peaks_;
 }
 
@@ -82,31 +100,39 @@ template <class Visit>
 void LineVotes::for_each_near(const LinePeak& peak, double window_rad, Visit&& visit) const {
   const int reach = static_cast<int>(std::ceil(window_rad * bins_ / kTurn));
   for (int bin = peak.bin - reach; bin <= peak.bin + reach; ++bin) {
-    const int slot = slot_of(peak.polarity, (bin % bins_ + bins_) % bins_);
+    const int slot = slot_of(peak.polarity, wrapped(bin));
     for (int i = begin_[slot]; i < begin_[slot + 1]; ++i) visit(order_[i], bin);
   }
 }
 
+/// A counting sort, as rows are few; the hits of one row stay in order.
+void LineVotes::sort_near_by_row(const std::vector<EdgeHit>& hits) {
+  std::fill(begin_of_row_.begin(), begin_of_row_.end(), 0);
+  for (const std::int32_t index : near_) ++begin_of_row_[hits[index].row + 1];
+  for (std::size_t row = 1; row < begin_of_row_.size(); ++row) begin_of_row_[row] += begin_of_row_[row - 1];
+  by_row_.resize(near_.size());
+  for (const std::int32_t index : near_) by_row_[begin_of_row_[hits[index].row]++] = index;
+}
+
 double LineVotes::gather(const std::vector<EdgeHit>& hits, const AnnulusTable& annulus, const LinePeak& peak,
-                         double window_rad, double horizon_px, std::vector<RadialPoint>& points) {
+                         double window_rad, double horizon_px, RadialPoints& points) {
   points.clear();
+  near_.clear();
   middle_.clear();
   for_each_near(peak, window_rad, [&](std::int32_t index, int bin) {
     if (used_[index] != 0) return;
+    near_.push_back(index);
+    if (std::abs(bin - peak.bin) <= 1) middle_.push_back(geometry::wrap_angle(hits[index].azimuth - peak.azimuth));
+  });
+  if (middle_.empty()) return 0.0;
+  sort_near_by_row(hits);
+  for (const std::int32_t index : by_row_) {
     const EdgeHit& hit = hits[index];
-    const double azimuth = geometry::wrap_angle(hit.azimuth - peak.azimuth);
-    points.push_back({.azimuth = azimuth,
+    points.push_back({.azimuth = geometry::wrap_angle(hit.azimuth - peak.azimuth),
                       .sigma = hit.sigma,
                       .lever = 1.0 / annulus.rows()[hit.row].radius_px - 1.0 / horizon_px,
                       .row = hit.row,
                       .step = std::abs(hit.step)});
-    if (std::abs(bin - peak.bin) <= 1) middle_.push_back(azimuth);
-  });
-  std::stable_sort(points.begin(), points.end(),
-                   [](const RadialPoint& a, const RadialPoint& b) { return a.row < b.row; });
-  if (middle_.empty()) {
-    points.clear();
-    return 0.0;
   }
   const auto median = middle_.begin() + static_cast<std::ptrdiff_t>(middle_.size() / 2);
   std::nth_element(middle_.begin(), median, middle_.end());

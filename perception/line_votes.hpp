@@ -25,6 +25,12 @@ class LineVotes {
  public:
   LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& camera, double bin_rad);
 
+  /// Memory for so many hits, and as many lines as they can be expected to make.
+  void reserve(std::size_t hits);
+
+  /// On how many circles a line can be seen, by azimuth: again where the table has been made anew.
+  void count_usable_rows(const AnnulusTable& annulus);
+
   /// Sorts the hits into bins. The indices into `hits` hold until the next call.
   void count(const std::vector<EdgeHit>& hits);
 
@@ -36,7 +42,7 @@ class LineVotes {
   /// The unused hits near a peak as points relative to its azimuth, by row.
   /// \returns the median of those in the three bins.
   double gather(const std::vector<EdgeHit>& hits, const AnnulusTable& annulus, const LinePeak& peak, double window_rad,
-                double horizon_px, std::vector<RadialPoint>& points);
+                double horizon_px, RadialPoints& points);
 
   /// Takes the hits of a fitted line out of the game.
   void use_up(const std::vector<EdgeHit>& hits, const AnnulusTable& annulus, const LinePeak& peak, const RadialFit& fit,
@@ -52,7 +58,9 @@ class LineVotes {
 
  private:
   [[nodiscard]] int bin_of(double azimuth) const;  ///< azimuth in [-2 pi, 4 pi)
+  [[nodiscard]] int wrapped(int bin) const { return bin < 0 ? bin + bins_ : bin < bins_ ? bin : bin - bins_; }
   [[nodiscard]] int slot_of(int polarity, int bin) const { return (polarity > 0 ? bins_ : 0) + bin; }
+  void sort_near_by_row(const std::vector<EdgeHit>& hits);
   template <class Visit>
   void for_each_near(const LinePeak& peak, double window_rad, Visit&& visit) const;
 
@@ -60,11 +68,15 @@ class LineVotes {
   std::vector<Eigen::Vector2d> in_image_;    ///< by bin
   std::vector<Eigen::Vector2d> directions_;  ///< by bin
   std::vector<int> usable_rows_;             ///< by bin
+  std::vector<std::int32_t> slots_;          ///< by hit
   std::vector<int> begin_;                   ///< by slot, one more than there are: first of its hits in order_
   std::vector<std::int32_t> order_;          ///< indices of hits, by slot, then row
   std::vector<std::uint8_t> used_;           ///< by hit
   std::vector<LinePeak> peaks_;
-  std::vector<double> middle_;  ///< scratch of gather()
+  // Scratch of gather().
+  std::vector<double> middle_;
+  std::vector<std::int32_t> near_, by_row_;  ///< indices of hits
+  std::vector<int> begin_of_row_;
 };
 
 }  // namespace credo::perception

@@ -36,9 +36,12 @@ struct Observer::State {
     if (!rig.range_finders.empty()) {
       range_finder = rig.range_finders.front();
       segmenter.emplace(*range_finder, scene_params.segmentation, params.line_fit);
+      scene.points.reserve(static_cast<std::size_t>(std::max(0, range_finder->count)));
     }
+    reserve();
   }
 
+  void reserve();
   void look(const sensors::Acquisition& acquisition);
   void measure(const sensors::Acquisition& acquisition);
 
@@ -62,6 +65,20 @@ Observer::Observer(const sensors::Rig& rig, const ObserverParams& params)
 Observer::~Observer() = default;
 Observer::Observer(Observer&&) noexcept = default;
 Observer& Observer::operator=(Observer&&) noexcept = default;
+
+/// More than a scene has of anything, so that none but the first takes memory.
+void Observer::State::reserve() {
+  constexpr std::size_t kUsual = 512;
+  segments.reserve(kUsual);
+  cooperation.uses.reserve(kUsual);
+  cooperation.ends.reserve(kUsual);
+  cooperation.cuts.reserve(kUsual);
+  wholes.existence.reserve(kUsual);
+  wholes.cases.reserve(kUsual);
+  wholes.first_part.reserve(kUsual);
+  scene.segments.reserve(kUsual);
+  scene.primitives.reserve(kUsual);
+}
 
 /// The camera's part.
 void Observer::State::look(const sensors::Acquisition& acquisition) {

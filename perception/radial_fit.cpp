@@ -7,60 +7,72 @@
 #include <array>
 #include <cmath>
 
-#include "perception/tukey_weight.hpp"
-
 namespace credo::perception {
 namespace {
+
+using Block = RadialPoints::Block;
+using Lanes = RadialPoints::Lanes;
 
 struct Normal {  // equations of the two unknowns azimuth and slope
   double aa = 0.0, ap = 0.0, pp = 0.0, ya = 0.0, yp = 0.0;
   double weighted_square = 0.0, weight = 0.0;
 };
 
-double residual(const RadialPoint& point, const RadialFit& fit) {
-  return (point.azimuth - fit.azimuth - fit.slope * point.lever) / point.sigma;
+Lanes residuals(const Block& block, const RadialFit& fit) {
+  return (block.azimuth - fit.azimuth - fit.slope * block.lever) * block.inverse_sigma;
 }
 
-Normal accumulate(std::span<const RadialPoint> points, const RadialFit& fit, double limit) {
-  Normal sum;
-  for (const RadialPoint& point : points) {
-    const double z = residual(point, fit);
-    const double share = tukey_weight(z, limit);
-    const double weight = share / (point.sigma * point.sigma);
-    sum.aa += weight;
-    sum.ap += weight * point.lever;
-    sum.pp += weight * point.lever * point.lever;
-    sum.ya += weight * point.azimuth;
-    sum.yp += weight * point.azimuth * point.lever;
-    sum.weighted_square += share * z * z;
-    sum.weight += share;
+double residual(std::span<const Block> blocks, std::size_t point, const RadialFit& fit) {
+  const Block& block = blocks[point / RadialPoints::kLanes];
+  const auto lane = static_cast<Eigen::Index>(point % RadialPoints::kLanes);
+  return (block.azimuth[lane] - fit.azimuth - fit.slope * block.lever[lane]) * block.inverse_sigma[lane];
+}
+
+/// With Tukey's biweight: 1 for a residual of 0, falling to 0 at `limit` and beyond.
+Normal accumulate(std::span<const Block> blocks, const RadialFit& fit, double limit) {
+  Lanes aa = Lanes::Zero(), ap = aa, pp = aa, ya = aa, yp = aa, weighted_square = aa, shares = aa;
+  const double inverse_limit = 1.0 / limit;
+  for (const Block& block : blocks) {
+    const Lanes z = residuals(block, fit);
+    const Lanes share = (1.0 - (z * inverse_limit).square()).max(0.0).square();
+    const Lanes weight = share * block.inverse_sigma.square();
+    const Lanes by_lever = weight * block.lever;
+    aa += weight;
+    ap += by_lever;
+    pp += by_lever * block.lever;
+    ya += weight * block.azimuth;
+    yp += by_lever * block.azimuth;
+    weighted_square += share * z.square();
+    shares += share;
   }
-  return sum;
+  return {aa.sum(), ap.sum(), pp.sum(), ya.sum(), yp.sum(), weighted_square.sum(), shares.sum()};
 }
 
 /// Of the residuals, in expected standard deviations, by the median of some of them: up to half of the points may be
 /// outliers. >= 1.
-double spread(std::span<const RadialPoint> points, const RadialFit& fit) {
+double spread(const RadialPoints& points, const RadialFit& fit) {
   constexpr std::size_t kMost = 32;
   std::array<double, kMost> magnitudes{};
   const std::size_t step = 1 + (points.size() - 1) / kMost;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < points.size(); i += step) magnitudes[count++] = std::abs(residual(points[i], fit));
+  for (std::size_t i = 0; i < points.size(); i += step)
+    magnitudes[count++] = std::abs(residual(points.blocks(), i, fit));
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(magnitudes.begin(), middle, magnitudes.begin() + static_cast<std::ptrdiff_t>(count));
   return std::max(1.0, 1.4826 * *middle);
 }
 
-void count_support(std::span<const RadialPoint> points, const RadialFitParams& params, RadialFit& fit) {
+void count_support(const RadialPoints& points, const RadialFitParams& params, RadialFit& fit) {
   int last = -1;
   int count = 0;
-  for (const RadialPoint& point : points) {
-    if (!supports(point, fit, params)) continue;
-    fit.contrast += point.step;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::abs(residual(points.blocks(), i, fit)) > params.support_sigmas * fit.scale) continue;
+    fit.contrast += points.steps()[i];
     ++count;
-    if (point.row == last) continue;
-    if (last < 0) fit.first_row = point.row;
-    last = fit.last_row = point.row;
+    const int row = points.rows()[i];
+    if (row == last) continue;
+    if (last < 0) fit.first_row = row;
+    last = fit.last_row = row;
     ++fit.rows;
   }
   if (count > 0) fit.contrast /= count;
@@ -68,17 +80,45 @@ void count_support(std::span<const RadialPoint> points, const RadialFitParams& p
 
 }  // namespace
 
-bool supports(const RadialPoint& point, const RadialFit& fit, const RadialFitParams& params) {
-  return std::abs(residual(point, fit)) <= params.support_sigmas * fit.scale;
+RadialPoints::RadialPoints(std::span<const RadialPoint> points) {
+  for (const RadialPoint& point : points) push_back(point);
 }
 
-RadialFit fit_radial_line(std::span<const RadialPoint> points, double start, double sigma_slope,
-                          const RadialFitParams& params) {
+void RadialPoints::reserve(std::size_t points) {
+  blocks_.reserve(points / kLanes + 1);
+  rows_.reserve(points);
+  steps_.reserve(points);
+}
+
+void RadialPoints::clear() {
+  blocks_.clear();
+  rows_.clear();
+  steps_.clear();
+}
+
+void RadialPoints::push_back(const RadialPoint& point) {
+  const auto lane = static_cast<Eigen::Index>(size() % kLanes);
+  if (lane == 0) blocks_.emplace_back();
+  Block& block = blocks_.back();
+  block.azimuth[lane] = point.azimuth;
+  block.inverse_sigma[lane] = 1.0 / point.sigma;
+  block.lever[lane] = point.lever;
+  rows_.push_back(point.row);
+  steps_.push_back(point.step);
+}
+
+RadialPoint RadialPoints::operator[](std::size_t i) const {
+  const Block& block = blocks_[i / kLanes];
+  const auto lane = static_cast<Eigen::Index>(i % kLanes);
+  return {block.azimuth[lane], 1.0 / block.inverse_sigma[lane], block.lever[lane], rows_[i], steps_[i]};
+}
+
+RadialFit fit_radial_line(const RadialPoints& points, double start, double sigma_slope, const RadialFitParams& params) {
   RadialFit fit{.azimuth = start};
   const double prior = 1.0 / (sigma_slope * sigma_slope);
   double limit = 4.0 * params.tukey;  // wide first, so that a start beside the line is drawn in
   for (int i = 0; i < params.iterations; ++i) {
-    const Normal sum = accumulate(points, fit, limit);
+    const Normal sum = accumulate(points.blocks(), fit, limit);
     const double pp = sum.pp + prior;
     const double determinant = sum.aa * pp - sum.ap * sum.ap;
     if (!(sum.aa > 0.0) || !(determinant > 0.0)) return fit;

@@ -18,6 +18,9 @@ namespace {
 
 using geometry::kTurn;
 
+constexpr std::size_t kColumnsPerHit = 8;  // more edges than that are no image
+constexpr std::size_t kUsualLines = 512;
+
 void check(const sensors::OmniCamera& camera) {
   if (!(camera.inner_radius_px > 0.0) || !(camera.outer_radius_px > camera.inner_radius_px)) {
     throw std::invalid_argument("the camera's annulus needs an inner radius above 0 and an outer one above that");
@@ -76,7 +79,7 @@ struct RadialLineExtractor::State {
   double noise = 0.0;
   cv::Mat gapless;  ///< copy of an image whose rows have gaps
   std::vector<EdgeHit> hits;
-  std::vector<RadialPoint> points;
+  RadialPoints points;
   std::vector<SlopeReading> slopes;
   std::vector<std::int16_t> scratch;
 };
@@ -93,16 +96,22 @@ RadialLineExtractor::State::State(const sensors::OmniCamera& camera_in, const Ra
       struts(camera, camera.center_px, params.column_px, params.struts),
       votes(annulus, camera, params.bin_rad),
       sigma_slope(0.0),
-      scratch(static_cast<std::size_t>(std::max(annulus.max_columns(), gray.max_columns()))) {}
+      scratch(static_cast<std::size_t>(std::max(annulus.max_columns(), gray.max_columns()))) {
+  const std::size_t most_hits = annulus.samples() / kColumnsPerHit;
+  hits.reserve(most_hits);
+  votes.reserve(most_hits);
+  points.reserve(most_hits);
+  slopes.reserve(kUsualLines);
+}
 
 /// Makes the tables anew about the rim's centre once that has left the tables' centre; in between, hits are corrected.
 void RadialLineExtractor::State::recenter() {
   if ((rim.center_px() - annulus.center_px()).norm() <= params.recenter_px) return;
   const Eigen::Vector2d& center = rim.center_px();
-  annulus = AnnulusTable(camera, center, annulus_radii(camera, params), params.column_px);
-  gray = AnnulusTable(camera, center, gray_circles(camera, params.gray), params.column_px);
-  struts.recenter(camera, center, params.column_px);
-  votes = LineVotes(annulus, camera, params.bin_rad);
+  annulus.recenter(camera, center);
+  gray.recenter(camera, center);
+  struts.recenter(camera, center);
+  votes.count_usable_rows(annulus);
 }
 
 /// \returns whether there is anything to be seen in the image.
@@ -197,6 +206,7 @@ void RadialLineExtractor::extract(const sensors::OmniImage& image, Scene& scene)
   State& state = *state_;
   check(image, state.camera);
   scene.radial_lines.clear();
+  scene.radial_lines.reserve(kUsualLines);
   scene.gray.values.clear();
   scene.camera_origin = {state.camera.T_base_camera.x, state.camera.T_base_camera.y};
   const cv::Mat* pixels = &image.pixels;

@@ -19,7 +19,7 @@ namespace credo::perception {
 struct RadialLineParams {
   // Sampling of the annulus.
   double border_px = 3.0;  ///< kept free at the inner and outer border, where the reflection's blurred border is
-  double row_step_px = 2.0;
+  double row_step_px = 3.0;
   double column_px = 0.7;    ///< distance of the samples along a circle
   double recenter_px = 0.5;  ///< the tables are made anew when the rim has moved the centre further than that
   EdgeFilterParams edges;

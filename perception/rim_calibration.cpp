@@ -40,6 +40,7 @@ RimCalibration::RimCalibration(const sensors::OmniCamera& camera, const RimParam
     directions_.emplace_back(std::cos(angle), std::sin(angle));
   }
   samples_.resize(radii.size() * params_.directions);
+  falls_.reserve(samples_.size());
 }
 
 void RimCalibration::find_falls(const std::uint8_t* pixels) {

@@ -39,6 +39,7 @@ Segmenter::Segmenter(const sensors::RangeFinder& range_finder, const Segmentatio
       increment_(std::abs(range_finder.angle_increment_rad)),
       clockwise_(range_finder.angle_increment_rad < 0.0),
       range_max_(range_finder.range_max_m) {
+  pieces_.reserve(static_cast<std::size_t>(std::max(0, range_finder.count)));
   if (increment_ <= 0.0) return;
   const double full_turn = 2.0 * std::numbers::pi;
   if (range_finder.count * increment_ > full_turn - 1.5 * increment_)
@@ -300,8 +301,7 @@ void Segmenter::turn_pieces(Points& points) {
 void Segmenter::keep_lines(const Points& points, std::vector<RangeSegment>& segments) const {
   const double outlier = noise_.params.no_weight_from;
   for (const Piece& piece : pieces_) {
-    RangeSegment segment{.first = piece.first, .last = piece.last};
-    segment.fit = fit_line(span(points, piece.first, piece.last), noise_);
+    RangeSegment segment{.first = piece.first, .last = piece.last, .fit = piece.fit};
     const LineEstimate& line = segment.fit.line;
     const auto strays = [&](int k) { return std::abs(residual_sigmas(points[k], line, noise_)) >= outlier; };
     while (segment.first < segment.last && strays(segment.first)) ++segment.first;

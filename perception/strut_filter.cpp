@@ -18,6 +18,8 @@ std::vector<double> inner_radii(const sensors::OmniCamera& camera, const StrutPa
                              params.inner_until * camera.inner_radius_px, 2.0);
 }
 
+constexpr std::size_t kUsualStruts = 16;
+
 double counter_clockwise(double from, double to) {
   const double turn = std::fmod(to - from, kTurn);
   return turn < 0.0 ? turn + kTurn : turn;
@@ -29,10 +31,11 @@ StrutFilter::StrutFilter(const sensors::OmniCamera& camera, const Eigen::Vector2
                          const StrutParams& params)
     : params_(params), inner_(camera, center_px, inner_radii(camera, params), column_px) {
   for (const AnnulusRow& row : inner_.rows()) samples_.emplace_back(row.columns);
+  struts_.reserve(kUsualStruts);
 }
 
-void StrutFilter::recenter(const sensors::OmniCamera& camera, const Eigen::Vector2d& center_px, double column_px) {
-  inner_ = AnnulusTable(camera, center_px, inner_radii(camera, params_), column_px);
+void StrutFilter::recenter(const sensors::OmniCamera& camera, const Eigen::Vector2d& center_px) {
+  inner_.recenter(camera, center_px);
 }
 
 bool StrutFilter::crosses_inside(double from, double width, double noise) const {

@@ -35,7 +35,7 @@ class StrutFilter {
               const StrutParams& params);
 
   /// Makes its table anew about another centre; what it remembers stays.
-  void recenter(const sensors::OmniCamera& camera, const Eigen::Vector2d& center_px, double column_px);
+  void recenter(const sensors::OmniCamera& camera, const Eigen::Vector2d& center_px);
 
   /// Removes the lines of bars from `lines` (by azimuth, order kept).
   void remove(const std::uint8_t* pixels, double noise, std::vector<RadialLine>& lines);

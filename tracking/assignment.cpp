@@ -6,25 +6,70 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <tuple>
 
 namespace credo::tracking {
+namespace {
+
+constexpr int kMostSteps = 2000;  // of a search; beyond, the graph library is faster
+
+}  // namespace
+
+void Assigner::reserve(std::size_t rows, std::size_t columns, std::size_t candidates) {
+  column_of_row_.reserve(rows);
+  best_weight_.reserve(rows);
+  chosen_.reserve(rows);
+  best_.reserve(rows);
+  row_of_column_.reserve(columns);
+  taken_.reserve(columns);
+  parent_.reserve(rows + columns);
+  collides_.reserve(rows + columns);
+  offered_.reserve(candidates);
+}
 
 int Assigner::root(int node) {
   while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
   return node;
 }
 
-// One row, or one column: the heaviest pair; of equals the lowest row and column.
+// Branch and bound, as far as that is quick. `component` is by row, heaviest first; of equals the first found.
 bool Assigner::settle(std::span<const Candidate> component) {
-  const auto same_column = [&](const Candidate& c) { return c.column == component.front().column; };
-  if (!std::ranges::all_of(component, same_column)) return false;  // one row cannot collide
-  const Candidate* heaviest = &component.front();
-  for (const Candidate& c : component) {
-    if (c.weight > heaviest->weight || (c.weight == heaviest->weight && c.row < heaviest->row)) heaviest = &c;
-  }
+  double at_most = 0.0;
+  for (std::size_t i = 0; i < component.size(); ++i)
+    if (i == 0 || component[i].row != component[i - 1].row) at_most += component[i].weight;
+  best_sum_ = 0.0;
+  chosen_.clear();
+  best_.clear();
+  steps_left_ = kMostSteps;
+  search(component, 0.0, at_most);
+  if (steps_left_ == 0) return false;
   for (const Candidate& c : component) column_of_row_[c.row] = -1;
-  column_of_row_[heaviest->row] = heaviest->column;
+  for (const Candidate& c : best_) column_of_row_[c.row] = c.column;
   return true;
+}
+
+// The first row of `rest` with every column that is free, and with none; then the rows behind it.
+// at_most: what all of `rest` can add.
+void Assigner::search(std::span<const Candidate> rest, double sum, double at_most) {
+  if (steps_left_ == 0) return;
+  --steps_left_;
+  if (sum > best_sum_) {
+    best_sum_ = sum;
+    best_ = chosen_;
+  }
+  if (rest.empty() || sum + at_most <= best_sum_) return;
+  const auto other_row = [row = rest.front().row](const Candidate& c) { return c.row != row; };
+  const auto row = rest.first(static_cast<std::size_t>(std::ranges::find_if(rest, other_row) - rest.begin()));
+  const auto behind = rest.subspan(row.size());
+  for (const Candidate& c : row) {
+    if (taken_[c.column]) continue;
+    taken_[c.column] = 1;
+    chosen_.push_back(c);
+    search(behind, sum + c.weight, at_most - row.front().weight);
+    chosen_.pop_back();
+    taken_[c.column] = 0;
+  }
+  search(behind, sum, at_most - row.front().weight);
 }
 
 const std::vector<int>& Assigner::assign(int rows, int columns, std::span<const Candidate> candidates) {
@@ -55,10 +100,11 @@ const std::vector<int>& Assigner::assign(int rows, int columns, std::span<const 
   }
   if (!any) return column_of_row_;
 
+  taken_.assign(columns, 0);
   std::erase_if(offered_, [&](const Candidate& c) { return !collides_[root(c.row)]; });
   std::ranges::sort(offered_, [&](const Candidate& a, const Candidate& b) {
     const int in_a = root(a.row), in_b = root(b.row);
-    return in_a != in_b ? in_a < in_b : a.row != b.row ? a.row < b.row : a.column < b.column;
+    return std::tuple(in_a, a.row, -a.weight, a.column) < std::tuple(in_b, b.row, -b.weight, b.column);
   });
   for (auto first = offered_.begin(); first != offered_.end();) {
     const int component = root(first->row);

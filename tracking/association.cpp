@@ -13,7 +13,10 @@ using evidence::BinaryMass;
 using evidence::MatchDecision;
 using perception::PrimitiveType;
 
-constexpr double kCertain = 40.0;  // a finite weight for a match without doubt
+constexpr double kCertain = 40.0;             // a finite weight for a match without doubt
+constexpr std::size_t kUsual = 256;           // tracks or primitives
+constexpr std::size_t kUsualOptions = 4096;   // of all tracks
+constexpr std::size_t kUsualCandidates = 64;  // of one track
 
 // Only what speaks for the match is discounted: a landmark of another type in another place is as far away as any.
 BinaryMass less_sure(const BinaryMass& mass, double reliability) {
@@ -29,6 +32,24 @@ void add_floors(PolarPoint& point, const AssociationParams& params) {
 }
 
 }  // namespace
+
+Associator::Associator() {
+  matcher_.reserve(kUsualCandidates);
+  assigner_.reserve(kUsual, kUsual, kUsualOptions);
+  options_.reserve(kUsualOptions);
+  candidates_.reserve(kUsualOptions);
+  first_option_.reserve(kUsual + 1);
+  row_.reserve(kUsual);
+  row_primitives_.reserve(kUsual);
+  column_of_track_.reserve(kUsual);
+  track_of_column_.reserve(kUsual);
+  points_.reserve(kUsual);
+  walls_.reserve(kUsual);
+  polarities_.reserve(kUsual);
+  ambiguous_.reserve(kUsual);
+  dropped_.reserve(kUsual);
+  outcomes_.reserve(kUsual);
+}
 
 const std::vector<Outcome>& Associator::associate(std::span<const Expected> tracks, const perception::Scene& scene,
                                                   perception::Method method, const AssociationParams& params,

@@ -69,6 +69,8 @@ struct Outcome {
 /// exchange with one rival would be almost as plausible. If not it is undecided.
 class Associator {
  public:
+  Associator();
+
   /// \returns the outcome of each track, valid until the next call
   const std::vector<Outcome>& associate(std::span<const Expected> tracks, const perception::Scene& scene,
                                         perception::Method method, const AssociationParams& params,

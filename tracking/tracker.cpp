@@ -68,6 +68,17 @@ bool blind_for(const Track& track, const perception::Scene& scene) {
 }  // namespace
 
 struct Tracker::State {
+  explicit State(const TrackerParams& tracker_params) : params(tracker_params) {
+    constexpr std::size_t kUsual = 256;  // tracks or primitives
+    tracks.reserve(kUsual);
+    companions.reserve(kUsual);
+    fates.reserve(kUsual);
+    matches.reserve(kUsual);
+    appeared.reserve(kUsual);
+    expected.reserve(kUsual);
+    taken.reserve(kUsual);
+  }
+
   TrackerParams params;
   std::vector<Track> tracks;
   std::vector<Companion> companions;  // one for each track
@@ -345,10 +356,7 @@ void Tracker::State::adopt_type(int track, const perception::Primitive& primitiv
   }
 }
 
-Tracker::Tracker(const TrackerParams& params) : state_(std::make_unique<State>()) {
-  check(params);
-  state_->params = params;
-}
+Tracker::Tracker(const TrackerParams& params) : state_((check(params), std::make_unique<State>(params))) {}
 Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;

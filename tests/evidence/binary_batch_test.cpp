@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "evidence/binary_rules.hpp"
-#include "tests/evidence/counted_new.hpp"
 #include "tests/evidence/random_masses.hpp"
+#include "tests/support/counted_new.hpp"
 
 namespace credo::evidence {
 namespace {

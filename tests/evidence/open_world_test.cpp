@@ -9,8 +9,8 @@
 #include <limits>
 #include <numeric>
 
-#include "tests/evidence/counted_new.hpp"
 #include "tests/evidence/random_masses.hpp"
+#include "tests/support/counted_new.hpp"
 
 namespace credo::evidence {
 namespace {

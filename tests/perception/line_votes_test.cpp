@@ -67,7 +67,7 @@ class Votes : public ::testing::Test {
   AnnulusTable annulus_;
   LineVotes votes_;
   std::vector<EdgeHit> hits_;
-  std::vector<RadialPoint> points_;
+  RadialPoints points_;
 };
 
 TEST_F(Votes, WithoutHitsThereIsNoPeak) { EXPECT_THAT(peaks(), IsEmpty()); }
@@ -129,7 +129,7 @@ TEST_F(Votes, GathersTheHitsOfThePeaksSignByRow) {
   const double median = gather(*peak);
   ASSERT_THAT(points_, SizeIs(static_cast<std::size_t>(rows())));
   for (int row = 0; row < rows(); ++row) {
-    const RadialPoint& point = points_[static_cast<std::size_t>(row)];
+    const RadialPoint point = points_[static_cast<std::size_t>(row)];
     EXPECT_EQ(point.row, row);
     EXPECT_EQ(point.step, 30.0);
     EXPECT_DOUBLE_EQ(point.lever, lever(row));

@@ -51,7 +51,7 @@ class Tilt : public ::testing::Test {
                           .row = row,
                           .step = 30.0});
       }
-      const RadialFit fit = fit_radial_line(points, 0.0, 100.0, {});
+      const RadialFit fit = fit_radial_line(RadialPoints(points), 0.0, 100.0, {});
       readings.push_back({.azimuth = azimuth, .slope = fit.slope, .sigma = 0.02});
     }
     return readings;

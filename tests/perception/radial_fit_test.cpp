@@ -33,6 +33,11 @@ std::vector<RadialPoint> line(double azimuth, double slope, double noise_sigmas 
   return points;
 }
 
+RadialFit fit_radial_line(std::span<const RadialPoint> points, double start, double sigma_slope,
+                          const RadialFitParams& params) {
+  return perception::fit_radial_line(RadialPoints(points), start, sigma_slope, params);
+}
+
 TEST(RadialFit, WithoutPointsHasNoRows) {
   const RadialFit fit = fit_radial_line({}, 0.3, kAnySlope, {});
   EXPECT_EQ(fit.rows, 0);

@@ -112,7 +112,7 @@ TEST_F(StrutFilterOfOneCamera, ABarIsBelievedOnceItWasSeenOftenEnough) {
 TEST_F(StrutFilterOfOneCamera, AboutAnotherCentreTheBarsAreStillKnown) {
   ASSERT_THAT(left(with_bar_, edges_of(bar_)), IsEmpty());
   const Eigen::Vector2d error(3.0, 2.5);
-  filter_.recenter(camera_, camera_.center_px + error, 0.7);
+  filter_.recenter(camera_, camera_.center_px + error);
   EXPECT_THAT(left({.center_error_px = error}, {line(1.70, -1)}), IsEmpty());
   const Patch other{4.0, 4.05, 10.0};
   EXPECT_THAT(left({.struts = {other}, .center_error_px = error}, edges_of(other)), IsEmpty()) << "and new ones found";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "tests/evidence/counted_new.hpp"
+#include "tests/support/counted_new.hpp"
 
 #include <atomic>
 #include <cstdlib>
@@ -21,8 +21,16 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++count;
   return std::malloc(size);
 }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++count;
+  const auto unit = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(unit, (size + unit - 1) / unit * unit)) return memory;
+  throw std::bad_alloc();
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace credo::testing {
 

@@ -10,7 +10,7 @@
 #include "datasets/dataset.hpp"
 #include "sim/world.hpp"
 
-namespace credo::apps {
+namespace credo::evaluation {
 
 /// A world played once and kept in memory: what `credo simulate` writes and `credo run` reads.
 struct PlayedDrive {
@@ -24,4 +24,4 @@ struct PlayedDrive {
 [[nodiscard]] PlayedDrive play(const sim::World& world, std::uint64_t seed,
                                const std::function<void(double)>& progress = {});
 
-}  // namespace credo::apps
+}  // namespace credo::evaluation
