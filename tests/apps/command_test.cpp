@@ -250,9 +250,9 @@ TEST_F(Command, TheWholeWayOfTheData) {
   ASSERT_EQ(answer.status, 0) << answer.error;
   EXPECT_THAT(answer.out,
               AllOf(HasSubstr("mean position error"), HasSubstr("confidently wrong"), HasSubstr("per pair")));
-  for (const char* name :
-       {"trajectory.tum", "localization.csv", "tracks.csv", "primitives.csv", "radial_lines.csv", "map.yaml", "map.pgm",
-        "map_belief.tiff", "config.yaml", "calibration.yaml", "pictures/errors.png", "pictures/beliefs.png", "pictures/map.png"}) {
+  for (const char* name : {"trajectory.tum", "localization.csv", "tracks.csv", "primitives.csv", "radial_lines.csv",
+                           "map.yaml", "map.pgm", "map_belief.tiff", "config.yaml", "calibration.yaml",
+                           "pictures/errors.png", "pictures/beliefs.png", "pictures/map.png"}) {
     EXPECT_TRUE(fs::exists(folder_ / "first" / name)) << name;
   }
   const json info = json::parse(credo("info data --format json").out);
