@@ -59,7 +59,7 @@ MatchCounts check_matches(const perception::Scene& scene, std::span<const locali
                           const geometry::Pose2& T_map_base, const MatchCheckParams& params) {
   MatchCounts counts;
   for (std::size_t k = 0; k < observations.size(); ++k) {
-    if (solution.outlier[k]) continue;
+    if (solution.outlier[k] || observations[k].landmark == tracking::kNoLandmark) continue;
     const perception::Primitive& seen = scene.primitives[static_cast<std::size_t>(observations[k].primitive)];
     ++counts.matches;
     counts.wrong +=

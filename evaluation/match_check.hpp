@@ -40,7 +40,8 @@ struct MatchCounts {
                                   const localization::LandmarkMap& map, tracking::LandmarkId landmark,
                                   const geometry::Pose2& T_map_base, const MatchCheckParams& params = {});
 
-/// Over the matches that a pose rests on; what the solver has rejected is not accepted and does not count.
+/// Over the matches that a pose rests on; what the solver has rejected is not accepted and does not count, nor what is
+/// matched to a track without a landmark.
 [[nodiscard]] MatchCounts check_matches(const perception::Scene& scene,
                                         std::span<const localization::Observation> observations,
                                         const localization::PoseSolution& solution,

@@ -104,5 +104,20 @@ TEST(MatchCheck, CountsWhatThePoseRestsOn) {
   EXPECT_EQ(counts.wrong_share(), 0.5);
 }
 
+TEST(MatchCheck, WhatIsMatchedToNoLandmarkIsNoMatch) {
+  perception::Scene scene;
+  scene.primitives = {corner_seen(0.0, 0.0), corner_seen(0.1, 0.0)};
+  std::vector<localization::Observation> observations(3);
+  observations[0].landmark = corner_id();
+  observations[1].primitive = 1;
+  observations[1].landmark = corner_id();
+  observations[2].landmark = tracking::kNoLandmark;
+  localization::PoseSolution solution;
+  solution.outlier = {false, false, false};
+  const MatchCounts counts = check_matches(scene, observations, solution, map(), kPose);
+  EXPECT_EQ(counts.matches, 2);
+  EXPECT_EQ(counts.wrong, 1);
+}
+
 }  // namespace
 }  // namespace credo::evaluation
