@@ -44,10 +44,10 @@ struct Localization {
   geometry::PoseEstimate estimate;  ///< T_map_base with covariance; in the start's frame while initializing
   evidence::BinaryMass belief;      ///< in "the localization is correct" (Clerentin et al., sec. 4.5)
   double conflict = 0.0;            ///< between its criteria
-  double innovation = 0.0;          ///< squared Mahalanobis distance of the pose from its prediction
+  double innovation = 0.0;          ///< squared Mahalanobis distance of the pose from where the wheels led it
   bool unrecognised = false;        ///< much of what the plan has in sight is not seen
   bool off_plan = false;            ///< much of the scan does not lie on the plan
-  bool contradicted = false;        ///< the camera sees the plan under another heading
+  bool contradicted = false;        ///< camera, range finder and wheels do not agree
   bool doubted = false;    ///< lately the plan did not look as it should, and nothing has confirmed the pose since
   bool elsewhere = false;  ///< another pose is far more plausible
   ProtectionLevels protection = {};

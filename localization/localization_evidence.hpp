@@ -25,6 +25,7 @@ struct LocalizationEvidence {
   /// Share of the camera's votes that the pose gets against the best other heading (BearingAgreement); nothing where
   /// too few are cast, and under the paper's method.
   std::optional<double> bearing_agreement;
+  bool camera_seen = false;  ///< it says something, be it too little to tell the heading
   /// Integrity::separation; nothing for few landmarks, and under the paper's method.
   std::optional<double> separation;
   std::span<const tracking::Track> tracks;

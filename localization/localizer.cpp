@@ -59,6 +59,7 @@ struct Localizer::State {
         search(map, fitter.scan_matcher().field(), rig, params.search),
         elsewhere(search, fitter, params.hypotheses),
         absolute(initial.has_value() && !map.empty()),
+        trust(initial.value_or(PoseEstimate{}), params.belief, params.status, params.trust),
         predictor(params.constant_velocity) {
     if (rig.camera) {
       const sensors::OmniCamera& camera = *rig.camera;
@@ -77,8 +78,9 @@ struct Localizer::State {
   TrackLabels labels;
   IntegrityMonitor monitor;
   GlobalSearch search;
-  PoseHypotheses elsewhere;      ///< where the robot may be, while its pose is unknown or in doubt
-  bool absolute;                 ///< poses are in the map frame, not relative to the start
+  PoseHypotheses elsewhere;  ///< where the robot may be, while its pose is unknown or in doubt
+  bool absolute;             ///< poses are in the map frame, not relative to the start
+  PoseTrust trust;
   SceneFit fit;                  ///< the latest pose and what it rests on
   SceneFit other;                ///< another one that is tried
   CalibratedPose predicted;      ///< from the latest pose
@@ -86,10 +88,7 @@ struct Localizer::State {
   int matched_before = 0;        ///< primitives that the latest fix rests on
   int doubted = 0;               ///< acquisitions in a row in which the plan was not recognised
   bool jumped = false;           ///< in this acquisition: the pose was found some way from where it was expected
-  bool unconfirmed = false;      ///< the pose has jumped, and the hypotheses have not borne it out yet
   bool found_elsewhere = false;  ///< in this acquisition: the pose is another one than was thought
-  int trusted = 1000;  ///< acquisitions in a row in which nothing spoke against the pose; at the start it was given
-  int unchecked = 0;   ///< acquisitions since the scan last lay on the plan
   PoseHistory history;
   MotionPredictor predictor;
   std::vector<double> landmark_beliefs;  ///< by observation, a workspace
@@ -261,14 +260,13 @@ void Localizer::State::look_elsewhere(const Scene& scene, const PoseEstimate& mo
     if (doubted < params.doubts_before_search && !jumped) return;
     elsewhere.add(fit.pose);
   }
-  unconfirmed = absolute && (unconfirmed || jumped);
+  if (absolute && jumped) trust.jumped();
   elsewhere.update(scene, motion);
   if (!elsewhere.resolved()) return;
-  unconfirmed = false;
+  trust.confirmed();
   const SceneFit& best = *elsewhere.best();
   if (!absolute || elsewhere.lead_over(fit.pose.pose) > 0.0) go_to(best);
   elsewhere.clear();
-  trusted = params.trusted_again_after;
 }
 
 /// The pose is another one than was thought.
@@ -277,6 +275,7 @@ void Localizer::State::go_to(const SceneFit& found) {
   labels.forget_all(tracker);
   absolute = found_elsewhere = true;
   doubted = 0;
+  trust.found(fit.estimate());
 }
 
 /// What is known of other poses, while they are looked for. Before there is an absolute pose the most plausible one is
@@ -360,41 +359,24 @@ Integrity Localizer::State::watch() {
   return monitor.assess(fit.solution, landmark_beliefs);
 }
 
-/// Belief and status of an absolute pose. Where nothing is seen there is no evidence against it: what was believed
-/// fades into not knowing. The paper's method knows its p + 2 criteria alone.
+/// Belief and status of an absolute pose.
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
-  const bool paper = params.method == perception::Method::kPaper;
   LocalizationEvidence& evidence = fit.evidence;
   evidence.tracks = tracker.tracks();
-  if (!paper) {
-    const Integrity integrity = watch();
-    fix.protection = integrity.protection;
-    if (integrity.landmarks >= params.belief.least_in_sight) evidence.separation = integrity.separation;
-  }
-  const bool on_plan = evidence.scan_agreement && agreement_belief(evidence, params.belief).no < 0.5;
-  unchecked = on_plan ? 0 : unchecked + 1;
-  const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
-  const evidence::FusedBinaryMass belief =
-      scene.primitives.empty() && !paper
-          ? evidence::FusedBinaryMass{evidence::discount(before, params.blind_reliability), 0.0}
-          : localization_belief(evidence, params.belief);
-  fix.belief = belief.mass;
-  fix.conflict = belief.conflict;
   fix.matched = matched_before = evidence.matched;
-  fix.innovation = fit.solution.prior_mahalanobis_squared;
-  if (!paper && fix.innovation > params.status.max_innovation)
-    fix.belief = evidence::discount(fix.belief, params.contradiction_reliability);
-  if (!paper && unchecked > params.checked_for)
-    fix.belief = evidence::discount(fix.belief, params.unchecked_reliability);
-  fix.unrecognised = recognition_belief(evidence, params.belief).no > 0.0;
-  fix.off_plan = agreement_belief(evidence, params.belief).no > 0.0;
-  fix.contradicted = bearing_belief(evidence, params.belief).no > 0.0;
-  trusted = fix.unrecognised || fix.off_plan || fix.contradicted ? 0 : trusted + 1;
-  fix.doubted = unconfirmed || trusted < params.trusted_again_after;
+  std::optional<Integrity> integrity;
+  if (params.method == perception::Method::kDefault) {
+    integrity = watch();
+    fix.protection = integrity->protection;
+    if (integrity->landmarks >= params.belief.least_in_sight) evidence.separation = integrity->separation;
+  }
+  const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
+  trust.weigh(evidence, before, integrity ? &*integrity : nullptr, fix);
   if (fix.unrecognised || fix.off_plan) {
     widen(fit.pose, doubt());
     fix.estimate.covariance += doubt();
   }
+  trust.go_on_from(fix.estimate);
   judge(fix, scene.camera_seen, scene.range_finder_seen, params.status);
 }
 
@@ -440,7 +422,10 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
       if (match.transition) s.tracker.relabel(match.track, kNoLandmark);
     // 3. The pose from what is matched; 4. the map for what has appeared, and the pose again.
     s.predicted = s.fit.pose;
-    if (!s.history.empty()) move(s.predicted, step, s.params.calibration_walk);
+    if (!s.history.empty()) {
+      move(s.predicted, step, s.params.calibration_walk);
+      s.trust.follow(step);
+    }
     s.fitter.fit(scene, s.tracker.tracks(), matches, s.predicted, s.history.empty(), s.fit);
     s.search_pose(scene, motion.has_value());
     s.look_elsewhere(scene, step);

@@ -13,6 +13,7 @@
 #include "localization/localization_belief.hpp"
 #include "localization/motion_prediction.hpp"
 #include "localization/pose_hypotheses.hpp"
+#include "localization/pose_trust.hpp"
 #include "localization/rig_calibration.hpp"
 #include "localization/scene_fit.hpp"
 #include "tracking/tracker.hpp"
@@ -29,6 +30,7 @@ struct LocalizerParams {
   GlobalSearchParams search;
   PoseHypothesesParams hypotheses;
   StatusParams status;
+  PoseTrustParams trust;
   ConstantVelocityParams constant_velocity;
   CalibrationWalk calibration_walk;
   // When a pose is searched nearby, by the raw scan: where so little of the scan lies on the plan, or
@@ -42,13 +44,8 @@ struct LocalizerParams {
 
   double doubt_sigma_m = 0.3;  ///< how far the pose may be off where the points in sight are not recognised
   double doubt_sigma_rad = 0.05;
-  double contradiction_reliability = 0.5;  ///< of the belief where the pose contradicts its prediction
-  int checked_for = 3;                     ///< so many acquisitions a scan that lay on the plan vouches for;
-  double unchecked_reliability = 0.75;  ///< of the belief after that: nothing but what was matched speaks for the pose
-  double blind_reliability = 0.8;       ///< of the last belief where nothing at all is seen
   int doubts_before_search =
       2;                        ///< acquisitions in a row without the plan recognised: then it is looked for everywhere
-  int trusted_again_after = 2;  ///< acquisitions without doubt after one with, until the pose is trusted again
   double elsewhere_lead = 3.0;  ///< log plausibility by which another pose has to lead for the pose to be doubted
   int contradictions_allowed = 1;  ///< a track that contradicts the pose more often in a row loses its landmark
 

@@ -51,8 +51,8 @@ void check(const LocalizerParams& params) {
               scan.search_at_most_rad <= 3.2,
           "fit.scan: a search has steps of at least 0.01 m and 0.002 rad and reaches 10 m and half a turn at most");
   for (const double reliability :
-       {params.unchecked_reliability, params.belief.wall_reliability, params.belief.other_reliability,
-        params.contradiction_reliability, params.blind_reliability})
+       {params.trust.unchecked_reliability, params.belief.wall_reliability, params.belief.other_reliability,
+        params.trust.contradiction_reliability, params.trust.blind_reliability})
     require(reliability >= 0.0 && reliability <= 1.0, "a reliability has to be in [0, 1]");
 }
 
