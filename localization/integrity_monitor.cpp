@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "geometry/principal_axes.hpp"
 
@@ -45,27 +46,11 @@ double normalised(const Vector3d& shift, const Matrix3d& without, const Matrix3d
   return squared > 0.0 ? std::sqrt(squared / 3.0) : 0.0;
 }
 
-/// exp(-x^2 / 2): at least the probability that a normal error in two dimensions is longer than x standard deviations
-/// of the worst of them (Rayleigh), or one in one dimension larger in magnitude. Looked up; the chord of a convex
-/// function lies above it.
-class Tail {
- public:
-  Tail() {
-    for (int i = 0; i <= kSteps; ++i) values_[static_cast<std::size_t>(i)] = std::exp(-0.5 * std::pow(i * kStep, 2));
-  }
-  double operator()(double x) const {
-    if (!(x > 0.0)) return 1.0;
-    const double at = x / kStep;
-    if (!(at < kSteps)) return values_[kSteps];
-    const auto i = static_cast<std::size_t>(at);
-    return values_[i] + (at - static_cast<double>(i)) * (values_[i + 1] - values_[i]);
-  }
-
- private:
-  static constexpr int kSteps = 800;
-  static constexpr double kStep = 0.01;
-  std::array<double, kSteps + 1> values_{};
-};
+/// Takes what has rows by_state out of the information, and adds what it pulls to the gradient.
+void leave_out(const auto& told, StateMatrix& information, StateVector& gradient) {
+  information -= told.by_state.transpose() * told.information * told.by_state;
+  gradient += told.by_state.transpose() * told.weighted_residual;
+}
 
 ProbabilityInterval fault_of(bool wall, double belief, const IntegrityParams& params) {
   if (wall) return params.wall_fault;
@@ -88,11 +73,21 @@ ProbabilityInterval both(const ProbabilityInterval& a, const ProbabilityInterval
 
 }  // namespace
 
-IntegrityMonitor::IntegrityMonitor(const IntegrityParams& params) : params_(params) {
+IntegrityMonitor::IntegrityMonitor(const IntegrityParams& params, std::vector<WallFootprint> walls)
+    : params_(params), walls_(std::move(walls)) {
   constexpr std::size_t kUsualLandmarks = 96;
   landmarks_.reserve(kUsualLandmarks);
   by_landmark_.reserve(kUsualLandmarks);
   hypotheses_.reserve(kUsualLandmarks * kUsualLandmarks / 2 + kUsualLandmarks);
+}
+
+void IntegrityMonitor::add(const ProbabilityInterval& probability, const Matrix3d& covariance, const Vector3d& shift) {
+  hypotheses_.push_back({probability, shift.head<2>().norm(), std::abs(shift(2)), largest_sigma(covariance),
+                         std::sqrt(std::max(0.0, covariance(2, 2)))});
+}
+
+void IntegrityMonitor::add_undetermined(const ProbabilityInterval& probability) {
+  hypotheses_.push_back({probability, 0.0, 0.0, kInfinity, kInfinity});
 }
 
 /// Pieces of one wall are taken together: their rows span the same two dimensions.
@@ -119,17 +114,10 @@ void IntegrityMonitor::list_landmarks(const PoseSolution& solution, std::span<co
 
 /// Takes landmarks out of the covariance P of the state, one at a time and two at a time (Sherman, Morrison and
 /// Woodbury): without H, (P^-1 - H^T W H)^-1 = P + P H^T M H P with M = (1 - W H P H^T)^-1 W. Of all this only the
-/// pose's rows are needed: G = P H^T there, and C_ij = H_i P H_j^T.
+/// pose's rows are needed: G = P H^T there, and C_ij = H_i P H_j^T. Walls are left to add_walls.
 void IntegrityMonitor::add_landmarks(const StateMatrix& covariance, Integrity& integrity) {
   using Matrix32d = Eigen::Matrix<double, 3, 2>;
   const Matrix3d with_all = covariance.topLeftCorner<3, 3>();
-  const auto add = [&](const ProbabilityInterval& fault, const Matrix3d& P, const Vector3d& shift) {
-    hypotheses_.push_back(
-        {fault, shift.head<2>().norm(), std::abs(shift(2)), largest_sigma(P), std::sqrt(std::max(0.0, P(2, 2)))});
-  };
-  const auto add_undetermined = [&](const ProbabilityInterval& fault) {
-    hypotheses_.push_back({fault, 0.0, 0.0, kInfinity, kInfinity});
-  };
   by_landmark_.clear();
   for (const Landmark& l : landmarks_) by_landmark_.push_back(covariance * l.by_state.transpose());
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
@@ -138,19 +126,21 @@ void IntegrityMonitor::add_landmarks(const StateMatrix& covariance, Integrity& i
     const Matrix2d C_ii = first.by_state * by_landmark_[i];
     const Matrix2d rest = Matrix2d::Identity() - first.information * C_ii;
     if (!(rest.determinant() > kDetermined)) {
-      add_undetermined(first.fault);
+      if (!first.wall) add_undetermined(first.fault);
       continue;
     }
     const Matrix2d M_i = rest.inverse() * first.information;
     const Matrix3d P_i = with_all + G_i * M_i * G_i.transpose();
     const Vector3d shift = G_i * (first.weighted_residual + M_i * (C_ii * first.weighted_residual));
-    add(first.fault, P_i, shift);
     if (const double separation = normalised(shift, P_i, with_all); separation > integrity.separation) {
       integrity.separation = separation;
       integrity.separated = first.id;
     }
+    if (first.wall) continue;
+    add(first.fault, P_i, shift);
     for (std::size_t j = i + 1; j < landmarks_.size(); ++j) {
       const Landmark& second = landmarks_[j];
+      if (second.wall) continue;
       const Matrix2d C_ij = first.by_state * by_landmark_[j];
       const Matrix2d MC = M_i * C_ij;
       const Matrix32d G_j = by_landmark_[j].topRows<3>() + G_i * MC;
@@ -170,6 +160,45 @@ void IntegrityMonitor::add_landmarks(const StateMatrix& covariance, Integrity& i
   }
 }
 
+/// A wall that stands elsewhere, with the points that it carries, and what it has told the prior; alone and with
+/// another landmark.
+void IntegrityMonitor::add_walls(const PoseSolution& solution) {
+  StateMatrix prior_covariance, without;
+  if (!invert(solution.prior_information, prior_covariance)) return;
+  for (std::size_t w = 0; w < landmarks_.size(); ++w) {
+    const Landmark& wall = landmarks_[w];
+    if (!wall.wall) continue;
+    const WallFootprint& footprint = walls_[static_cast<std::size_t>(wall.id)];
+    StateMatrix information = solution.information;
+    StateVector gradient = StateVector::Zero();
+    for (const Landmark& l : landmarks_)
+      if (l.id == wall.id || footprint.carries(l.id)) leave_out(l, information, gradient);
+    leave_out(believed_wall(footprint, solution, prior_covariance), information, gradient);
+    if (!invert(information, without)) {
+      add_undetermined(wall.fault);
+      continue;
+    }
+    const StateVector shift = without * gradient;
+    add(wall.fault, without.topLeftCorner<3, 3>(), shift.head<3>());
+    for (std::size_t j = 0; j < landmarks_.size(); ++j) {
+      const Landmark& second = landmarks_[j];
+      if (footprint.carries(second.id) || (second.wall && j <= w)) continue;
+      const ProbabilityInterval both_wrong = both(wall.fault, second.fault);
+      const Eigen::Matrix<double, PoseState::kSize, 2> G = without * second.by_state.transpose();
+      const Matrix2d C = second.by_state * G;
+      const Matrix2d left = Matrix2d::Identity() - second.information * C;
+      if (!(left.determinant() > kDetermined)) {
+        add_undetermined(both_wrong);
+        continue;
+      }
+      const Matrix2d M = left.inverse() * second.information;
+      const Eigen::Vector2d residual = second.weighted_residual + second.information * (second.by_state * shift);
+      add(both_wrong, without.topLeftCorner<3, 3>() + G.topRows<3>() * M * G.topRows<3>().transpose(),
+          shift.head<3>() + G.topRows<3>() * (residual + M * (C * residual)));
+    }
+  }
+}
+
 void IntegrityMonitor::add_instruments(const PoseSolution& solution, const StateMatrix& covariance,
                                        Integrity& integrity) {
   for (const bool camera : {true, false}) {
@@ -184,17 +213,15 @@ void IntegrityMonitor::add_instruments(const PoseSolution& solution, const State
     }
     if (!any) continue;
     StateMatrix without;
-    const bool determined = invert(information, without);
-    Hypothesis h{params_.instrument_fault, 0.0, 0.0, kInfinity, kInfinity};
-    if (determined) {
-      const Vector3d shift = without.topRows<3>() * gradient;
-      h = {params_.instrument_fault, shift.head<2>().norm(), std::abs(shift(2)),
-           largest_sigma(without.topLeftCorner<3, 3>()), std::sqrt(without(2, 2))};
-      integrity.instrument_separation =
-          std::max(integrity.instrument_separation,
-                   normalised(shift, without.topLeftCorner<3, 3>(), covariance.topLeftCorner<3, 3>()));
+    if (!invert(information, without)) {
+      add_undetermined(params_.instrument_fault);
+      continue;
     }
-    hypotheses_.push_back(h);
+    const Vector3d shift = without.topRows<3>() * gradient;
+    add(params_.instrument_fault, without.topLeftCorner<3, 3>(), shift);
+    integrity.instrument_separation =
+        std::max(integrity.instrument_separation,
+                 normalised(shift, without.topLeftCorner<3, 3>(), covariance.topLeftCorner<3, 3>()));
   }
 }
 
@@ -214,8 +241,7 @@ void IntegrityMonitor::add_prediction(const PoseSolution& solution, const StateM
   prior_covariance(2, 2) += params_.slip_rad * params_.slip_rad;
   if (!invert(prior_covariance, slipped) || !invert(solution.information - of_prior + slipped, without)) return;
   const Vector3d shift = (without * (gradient - slipped * step)).head<3>();
-  hypotheses_.push_back({params_.prediction_fault, shift.head<2>().norm(), std::abs(shift(2)),
-                         largest_sigma(without.topLeftCorner<3, 3>()), std::sqrt(without(2, 2))});
+  add(params_.prediction_fault, without.topLeftCorner<3, 3>(), shift);
   integrity.instrument_separation =
       std::max(integrity.instrument_separation,
                normalised(shift, without.topLeftCorner<3, 3>(), covariance.topLeftCorner<3, 3>()));
@@ -226,12 +252,10 @@ void IntegrityMonitor::add_without(const StateMatrix& information, const StateVe
                                    const ProbabilityInterval& probability) {
   StateMatrix without;
   if (!invert(information, without)) {
-    hypotheses_.push_back({probability, 0.0, 0.0, kInfinity, kInfinity});
+    add_undetermined(probability);
     return;
   }
-  const Vector3d shift = without.topRows<3>() * gradient;
-  hypotheses_.push_back({probability, shift.head<2>().norm(), std::abs(shift(2)),
-                         largest_sigma(without.topLeftCorner<3, 3>()), std::sqrt(without(2, 2))});
+  add(probability, without.topLeftCorner<3, 3>(), without.topRows<3>() * gradient);
 }
 
 ProbabilityInterval IntegrityMonitor::expected_faults(bool walls) const {
@@ -248,10 +272,6 @@ ProbabilityInterval IntegrityMonitor::expected_faults(bool walls) const {
 void IntegrityMonitor::add_points(const PoseSolution& solution) {
   StateMatrix information = solution.information;
   StateVector gradient = StateVector::Zero();
-  const auto leave_out = [](const Landmark& landmark, StateMatrix& of, StateVector& towards) {
-    of -= landmark.by_state.transpose() * landmark.information * landmark.by_state;
-    towards += landmark.by_state.transpose() * landmark.weighted_residual;
-  };
   for (const Landmark& landmark : landmarks_)
     if (!landmark.wall) leave_out(landmark, information, gradient);
   const ProbabilityInterval points = expected_faults(false);
@@ -272,41 +292,6 @@ ProbabilityInterval IntegrityMonitor::unmonitored() const {
   return {pairs.low * points.low + triples.low, pairs.high * points.high + triples.high};
 }
 
-double IntegrityMonitor::excess(double ProbabilityInterval::*end, double Hypothesis::*separation,
-                                double Hypothesis::*sigma, double level) const {
-  static const Tail tail;
-  double sum = 0.0;
-  for (const Hypothesis& h : hypotheses_) sum += h.probability.*end * tail((level - h.*separation) / h.*sigma);
-  return sum;
-}
-
-/// The smallest level that is exceeded with a probability of at most `risk`, to 2 %; infinity where `most` is exceeded
-/// more often.
-double IntegrityMonitor::level_for(double risk, double ProbabilityInterval::*end, double Hypothesis::*separation,
-                                   double Hypothesis::*sigma, double most) const {
-  constexpr double kGrowth = 1.4, kPrecision = 0.02;
-  const auto log_excess = [&](double level) {
-    return std::log(std::max(excess(end, separation, sigma, level), 1e-300));
-  };
-  const double target = std::log(risk);
-  double low = 4.0 * hypotheses_.front().*sigma, high = low;  // the pose's own error alone is above this
-  double log_low = 0.0, log_high = 0.0;
-  while ((log_high = log_excess(high)) > target) {
-    if (high >= most) return kInfinity;
-    low = high;
-    log_low = log_high;
-    high = std::min(most, kGrowth * high);
-  }
-  while (high - low > kPrecision * high) {
-    const double secant = low + (high - low) * (log_low - target) / (log_low - log_high);
-    const double between = std::clamp(secant, low + 0.1 * (high - low), high - 0.1 * (high - low));
-    const double log_between = log_excess(between);
-    (log_between > target ? low : high) = between;
-    (log_between > target ? log_low : log_high) = log_between;
-  }
-  return high;
-}
-
 Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const double> beliefs,
                                    std::span<const Alias> aliases) {
   constexpr double kFarthest_m = 100.0;
@@ -318,11 +303,12 @@ Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const
   hypotheses_.push_back({{1.0, 1.0}, 0.0, 0.0, largest_sigma(P), std::sqrt(P(2, 2))});  // all is right
   if (StateMatrix covariance; invert(solution.information, covariance)) {
     add_landmarks(covariance, integrity);
+    add_walls(solution);
     add_points(solution);
     add_instruments(solution, covariance, integrity);
     add_prediction(solution, covariance, integrity);
   }
-  for (Hypothesis& h : hypotheses_) {
+  for (FaultHypothesis& h : hypotheses_) {
     h.sigma_m *= params_.sigma_overbound;
     h.sigma_rad *= params_.sigma_overbound;
   }
@@ -335,8 +321,9 @@ Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const
     const double risk = params_.risk - rest.*end;
     position_m = heading_rad = kInfinity;
     if (!(risk > 0.0)) return;
-    position_m = level_for(risk, end, &Hypothesis::separation_m, &Hypothesis::sigma_m, kFarthest_m);
-    heading_rad = level_for(risk, end, &Hypothesis::separation_rad, &Hypothesis::sigma_rad, std::numbers::pi);
+    using H = FaultHypothesis;
+    position_m = protection_level(hypotheses_, {end, &H::separation_m, &H::sigma_m}, risk, kFarthest_m);
+    heading_rad = protection_level(hypotheses_, {end, &H::separation_rad, &H::sigma_rad}, risk, std::numbers::pi);
   };
   ProtectionLevels& protection = integrity.protection;
   levels(&ProbabilityInterval::low, protection.position_low_m, protection.heading_low_rad);

@@ -8,15 +8,11 @@
 #include <vector>
 
 #include "localization/localization.hpp"
+#include "localization/moved_wall.hpp"
 #include "localization/pose_solver.hpp"
+#include "localization/protection_level.hpp"
 
 namespace credo::localization {
-
-/// A probability that is known to an interval only.
-struct ProbabilityInterval {
-  double low = 0.0;
-  double high = 0.0;
-};
 
 /// How often a match is wrong whose track is believed at least so much.
 struct FaultPrior {
@@ -34,7 +30,7 @@ struct IntegrityParams {
   ProbabilityInterval wall_fault{0.0, 1.4e-4};
   double sigma_overbound = 2.0;  ///< of the errors' standard deviations, so that their tails lie below a normal one's
   ProbabilityInterval instrument_fault{1e-7, 1e-6};  ///< all that an instrument says is wrong in the same way
-  ProbabilityInterval prediction_fault{1e-6, 1e-5};  ///< wheels have slipped since the acquisition before, as far as
+  ProbabilityInterval prediction_fault{1e-4, 1e-3};  ///< wheels have slipped since the acquisition before, as far as
   double slip_m = 0.5;                               ///< this, 1-sigma,
   double slip_rad = 0.1;                             ///< and this
 };
@@ -60,13 +56,14 @@ struct Integrity {
 
 /// Solution separation (Brown and McBurney 1988; multiple hypotheses: Blanch et al., ION GNSS 2012; for landmarks:
 /// Joerger et al., Sensors 2018): under the hypothesis that some of what the pose rests on is wrong, the pose without
-/// it is right, so that the error is at most what separates the two and the error of the latter. Hypotheses: one
-/// landmark, two, all points (for three and more), these and a wall, one instrument, the prediction, and an alias. The
-/// protection level is the length that all of these together exceed with a probability of IntegrityParams::risk. Keeps
-/// its memory.
+/// it is right, so that the error is at most what separates the two and the error of the latter. Hypotheses: one point,
+/// two, a wall with its corners and with what it has told the prior, a wall and another landmark, all points (for three
+/// and more), these and a wall, one instrument, the prediction, and an alias. The protection level is the length that
+/// all of these together exceed with a probability of IntegrityParams::risk. Keeps its memory.
 class IntegrityMonitor {
  public:
-  explicit IntegrityMonitor(const IntegrityParams& params = {});
+  /// \param walls  by the id of a wall that is observed, which is its landmark's
+  explicit IntegrityMonitor(const IntegrityParams& params = {}, std::vector<WallFootprint> walls = {});
 
   /// \param beliefs  of each observation of the solution: BetP(YES) that its track exists
   /// \param aliases  other places where the robot may be
@@ -74,12 +71,6 @@ class IntegrityMonitor {
                                  std::span<const Alias> aliases = {});
 
  private:
-  /// What would be true under a hypothesis, against the pose that is reported.
-  struct Hypothesis {
-    ProbabilityInterval probability;
-    double separation_m = 0.0, separation_rad = 0.0;
-    double sigma_m = 0.0, sigma_rad = 0.0;  ///< of the pose without what is wrong; the largest direction
-  };
   /// All that one landmark says, as one observation.
   struct Landmark {
     tracking::LandmarkId id = tracking::kNoLandmark;
@@ -92,22 +83,22 @@ class IntegrityMonitor {
 
   void list_landmarks(const PoseSolution& solution, std::span<const double> beliefs);
   void add_landmarks(const PoseState::Matrix& covariance, Integrity& integrity);
+  void add_walls(const PoseSolution& solution);
   void add_instruments(const PoseSolution& solution, const PoseState::Matrix& covariance, Integrity& integrity);
   void add_prediction(const PoseSolution& solution, const PoseState::Matrix& covariance, Integrity& integrity);
   void add_points(const PoseSolution& solution);
   void add_without(const PoseState::Matrix& information, const PoseState::Vector& gradient,
                    const ProbabilityInterval& probability);
+  void add(const ProbabilityInterval& probability, const Eigen::Matrix3d& covariance, const Eigen::Vector3d& shift);
+  void add_undetermined(const ProbabilityInterval& probability);
   [[nodiscard]] ProbabilityInterval expected_faults(bool walls) const;
   [[nodiscard]] ProbabilityInterval unmonitored() const;
-  [[nodiscard]] double excess(double ProbabilityInterval::*end, double Hypothesis::*separation,
-                              double Hypothesis::*sigma, double level) const;
-  [[nodiscard]] double level_for(double risk, double ProbabilityInterval::*end, double Hypothesis::*separation,
-                                 double Hypothesis::*sigma, double most) const;
 
   IntegrityParams params_;
+  std::vector<WallFootprint> walls_;
   std::vector<Landmark> landmarks_;
   std::vector<Eigen::Matrix<double, PoseState::kSize, 2>> by_landmark_;  ///< P H^T of each
-  std::vector<Hypothesis> hypotheses_;
+  std::vector<FaultHypothesis> hypotheses_;
 };
 
 }  // namespace credo::localization

@@ -73,6 +73,8 @@ class LandmarkMap {
   [[nodiscard]] tracking::LandmarkId point_id(std::size_t point) const {
     return static_cast<int>(walls_.size() + point);
   }
+  /// Of CalibratedPose::with_plan: the first of two columns for what a landmark is off beside its junctions.
+  [[nodiscard]] int own_column(tracking::LandmarkId id) const { return 2 * (junction_count() + id); }
   [[nodiscard]] bool is_wall(tracking::LandmarkId id) const { return id < static_cast<int>(walls_.size()); }
   /// Precondition: is_wall(id).
   [[nodiscard]] const WallLandmark& wall(tracking::LandmarkId id) const { return walls_[static_cast<std::size_t>(id)]; }

@@ -55,7 +55,7 @@ struct Localizer::State {
         fitter(map, instruments, params.fit),
         tracker(params.tracker),
         labels(map, params.contradictions_allowed),
-        monitor(params.integrity),
+        monitor(params.integrity, wall_footprints(map)),
         search(map, fitter.scan_matcher().field(), rig, params.search),
         elsewhere(search, fitter, params.hypotheses),
         absolute(initial.has_value() && !map.empty()),
@@ -264,8 +264,10 @@ void Localizer::State::look_elsewhere(const Scene& scene, const PoseEstimate& mo
   elsewhere.update(scene, motion);
   if (!elsewhere.resolved()) return;
   trust.confirmed();
+  // What was seen while an instrument lied may speak for a pose that explains less now than the tracked one.
   const SceneFit& best = *elsewhere.best();
-  if (!absolute || elsewhere.lead_over(fit.pose.pose) > 0.0) go_to(best);
+  const bool leads = elsewhere.lead_over(fit.pose.pose) > 0.0 && quality(best, scene) > quality(fit, scene);
+  if (!absolute || leads) go_to(best);
   elsewhere.clear();
 }
 

@@ -69,8 +69,6 @@ struct Prior {
   const CalibratedPose* pose = nullptr;
   PoseState::Vector state;
   Matrix3d carry;
-  PoseState::Matrix information;     ///< the carry's error included
-  PoseState::Columns plan_by_state;  ///< information * with_plan: what a step from the prior tells of the plan
 };
 
 /// An observation linearised at a state.
@@ -178,10 +176,10 @@ void PoseSolver::State::take(const CalibratedPose& pose, const Matrix3d& carry,
   prior.carry = carry;
   PoseState::Matrix covariance = pose.joint;
   covariance.block<3, 3>(PoseState::kRangeX, PoseState::kRangeX) += carry;
-  prior.information = inverse(covariance);
-  prior.plan_by_state = prior.information.lazyProduct(pose.with_plan);  // without a workspace
+  solution.prior_information = inverse(covariance);
+  solution.prior_by_plan = solution.prior_information.lazyProduct(pose.with_plan);  // without a workspace
   residuals.prior = prior.state;
-  residuals.prior_whitener = whitener(prior.information);
+  residuals.prior_whitener = whitener(solution.prior_information);
   residuals.observations = &observations;
   residuals.whiteners.resize(observations.size());
   residuals.by_step.resize(observations.size());
@@ -208,8 +206,8 @@ void PoseSolver::State::linearise_plan(std::size_t k, const StateFrame& frame) {
   Gain with_residual = Gain::Zero();  // covariance of the state with the residual's plan part
   for (std::size_t i = 0; i < plan_count(o); ++i) {
     const auto [column, J] = localization::by_plan(o, i, residuals.directions[k], frame);
-    assert(column + 2 <= prior.plan_by_state.cols());
-    l.by_step += J * prior.plan_by_state.middleCols<2>(column).transpose();
+    assert(column + 2 <= solution.prior_by_plan.cols());
+    l.by_step += J * solution.prior_by_plan.middleCols<2>(column).transpose();
     with_residual += prior.pose->with_plan.middleCols<2>(column) * J.transpose();
   }
   l.known = l.by_step * with_residual;
@@ -269,7 +267,8 @@ double PoseSolver::State::bounded_cost(const PoseState::Vector& x) const {
 void PoseSolver::State::judge(const PoseState::Vector& x) {
   const std::vector<Observation>& observations = *residuals.observations;
   const PoseState::Vector step = difference(x, prior.state);
-  solution.information = prior.information;
+  solution.step = step;
+  solution.information = solution.prior_information;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     const Linearised& l = linearised[k];
     Vector2d residual;
@@ -298,7 +297,7 @@ void PoseSolver::State::carry_over(const PoseState::Vector& x) {
   ScanColumns carried = ScanColumns::Zero();
   carried.middleRows<3>(PoseState::kRangeX) = prior.carry;
   const PoseState::Matrix L =
-      PoseState::Matrix::Identity() - carried * prior.information.middleRows<3>(PoseState::kRangeX);
+      PoseState::Matrix::Identity() - carried * solution.prior_information.middleRows<3>(PoseState::kRangeX);
   PoseState::Matrix by_state = PoseState::Matrix::Zero();
   PoseState::Matrix joint = PoseState::Matrix::Zero();
   const StateFrame frame(x);

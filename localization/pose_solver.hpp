@@ -42,6 +42,11 @@ struct PoseSolution {
   std::vector<LinearisedObservation> linearised;                  ///< one for each observation
   PoseState::Matrix information = PoseState::Matrix::Identity();  ///< of the state: prior and all of `linearised`
 
+  PoseState::Matrix prior_information = PoseState::Matrix::Identity();  ///< of the state before
+  PoseState::Vector step = PoseState::Vector::Zero();                   ///< from the state before
+  PoseState::Columns
+      prior_by_plan;  ///< prior_information times the covariance with the plan, CalibratedPose::with_plan
+
   [[nodiscard]] geometry::PoseEstimate estimate() const { return pose.estimate(); }
 };
 

@@ -58,9 +58,14 @@ void PoseTrust::weigh(const LocalizationEvidence& evidence, const evidence::Bina
   fix.off_plan = on_plan.no > 0.0;
   fix.contradicted = by_camera.no > 0.0 ||
                      (integrity != nullptr && integrity->instrument_separation > params_.max_instrument_separation);
-  undoubted_ = fix.unrecognised || fix.off_plan || fix.contradicted ? 0 : undoubted_ + 1;
+  // Once doubted, it takes more than not to be doubted.
+  const bool recovering = undoubted_ < params_.trusted_again_after;
+  const bool recognised = !recovering ||
+                          recognition_belief(evidence, belief_).yes >= 0.5 * belief_.recognised.max_yes ||
+                          evidence.in_sight < belief_.least_in_sight;
+  undoubted_ = !recognised || fix.unrecognised || fix.off_plan || fix.contradicted ? 0 : undoubted_ + 1;
   fix.doubted = unconfirmed_ || undoubted_ < params_.trusted_again_after;
-  in_place_ = integrity == nullptr || as_foreseen || borne_out(evidence);
+  in_place_ = integrity == nullptr || (as_foreseen && undoubted_ > 0) || (!as_foreseen && borne_out(evidence));
   if (as_foreseen) borne_out_ = 0;
 }
 

@@ -107,7 +107,7 @@ void SceneFitter::observe_landmark(const Scene& scene, int primitive, LandmarkId
   Observation o = wall ? observe_wall(seen, map_->wall(landmark), fit.pose.pose, plan, params_.observations)
                        : observe_point(scene, seen, map_->point(landmark), wall_in_use_, plan, params_.observations);
   o.landmark = landmark;
-  o.own_column = 2 * (map_->junction_count() + landmark);
+  o.own_column = map_->own_column(landmark);
   o.primitive = primitive;
   o.track = track;
   fit.observations.push_back(o);

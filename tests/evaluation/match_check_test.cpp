@@ -92,6 +92,7 @@ TEST(MatchCheck, CountsWhatThePoseRestsOn) {
   perception::Scene scene;
   scene.primitives = {corner_seen(0, 0), corner_seen(0.2, 0), corner_seen(0.3, 0)};
   std::vector<localization::Observation> observations(3);
+  observations[0].primitive = 0;
   for (int i = 0; i < 3; ++i) {
     observations[static_cast<std::size_t>(i)].primitive = i;
     observations[static_cast<std::size_t>(i)].landmark = corner_id();
@@ -108,6 +109,7 @@ TEST(MatchCheck, WhatIsMatchedToNoLandmarkIsNoMatch) {
   perception::Scene scene;
   scene.primitives = {corner_seen(0.0, 0.0), corner_seen(0.1, 0.0)};
   std::vector<localization::Observation> observations(3);
+  observations[0].primitive = 0;
   observations[0].landmark = corner_id();
   observations[1].primitive = 1;
   observations[1].landmark = corner_id();

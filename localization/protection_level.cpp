@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "localization/protection_level.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace credo::localization {
+namespace {
+
+/// exp(-x^2 / 2): at least the probability that a normal error in two dimensions is longer than x standard deviations
+/// of the worst of them (Rayleigh), or one in one dimension larger in magnitude. Looked up; the chord of a convex
+/// function lies above it.
+class Tail {
+ public:
+  Tail() {
+    for (int i = 0; i <= kSteps; ++i) values_[static_cast<std::size_t>(i)] = std::exp(-0.5 * std::pow(i * kStep, 2));
+  }
+  double operator()(double x) const {
+    if (!(x > 0.0)) return 1.0;
+    const double at = x / kStep;
+    if (!(at < kSteps)) return values_[kSteps];
+    const auto i = static_cast<std::size_t>(at);
+    return values_[i] + (at - static_cast<double>(i)) * (values_[i + 1] - values_[i]);
+  }
+
+ private:
+  static constexpr int kSteps = 800;
+  static constexpr double kStep = 0.01;
+  std::array<double, kSteps + 1> values_{};
+};
+
+/// Probability of an error above a level.
+double excess(std::span<const FaultHypothesis> hypotheses, const FaultComponent& of, double level) {
+  static const Tail tail;
+  double sum = 0.0;
+  for (const FaultHypothesis& h : hypotheses)
+    sum += h.probability.*of.end * tail((level - h.*of.separation) / h.*of.sigma);
+  return sum;
+}
+
+}  // namespace
+
+double protection_level(std::span<const FaultHypothesis> hypotheses, const FaultComponent& of, double risk,
+                        double most) {
+  constexpr double kGrowth = 1.4, kPrecision = 0.02;
+  const auto log_excess = [&](double level) { return std::log(std::max(excess(hypotheses, of, level), 1e-300)); };
+  const double target = std::log(risk);
+  double low = 4.0 * hypotheses.front().*of.sigma, high = low;  // the pose's own error alone is above this
+  double log_low = 0.0, log_high = 0.0;
+  while ((log_high = log_excess(high)) > target) {
+    if (high >= most) return std::numeric_limits<double>::infinity();
+    low = high;
+    log_low = log_high;
+    high = std::min(most, kGrowth * high);
+  }
+  while (high - low > kPrecision * high) {
+    const double secant = low + (high - low) * (log_low - target) / (log_low - log_high);
+    const double between = std::clamp(secant, low + 0.1 * (high - low), high - 0.1 * (high - low));
+    const double log_between = log_excess(between);
+    (log_between > target ? low : high) = between;
+    (log_between > target ? log_low : log_high) = log_between;
+  }
+  return high;
+}
+
+}  // namespace credo::localization
