@@ -131,9 +131,9 @@ std::string localizer_table_terms(const ScoreParams& p) {
   return fmt::format(
       "mean, 95 %, heading: error of position and mean error of heading at the acquisition's time, not aligned\n"
       "lost: error > {} m or > {} deg\n"
-      "available: status localized (a baseline has no other) and protection level <= {} m and {} deg; the level is\n"
-      "  {} standard deviations (1e-5, two-sided normal) of each localizer's own covariance: position along the\n"
-      "  longest axis, and heading\n"
+      "available: status localized (a baseline has no other) and protection level <= {} m and {} deg; Credo's level\n"
+      "  is its integrity monitor's, a baseline's {} standard deviations (1e-5, two-sided normal) of its own\n"
+      "  covariance: position along the longest axis, and heading\n"
       "misleading: available, yet the error is above the protection level\n"
       "NEES: mean over the acquisitions, correlated in time; 3 expected\n"
       "AUROC: of each localizer's own confidence against lost; '-' unless some are lost and some not;\n"

@@ -218,9 +218,29 @@ void GlobalSearch::bound_constellations() {
 }
 
 void GlobalSearch::add_lattice() {
-  nodes_.clear();
   const double half_rad = walls_tell_heading_ ? params_.wall_heading_sigma_rad : 0.5 * params_.heading_step_rad;
   double side_m = params_.coarsest_m;
+  const auto cells = [&] { return ((high_ - low_) / side_m).array().ceil().prod(); };
+  std::size_t coarser = 0;  // levels
+  for (; cells() > params_.most_cells; ++coarser) side_m *= 2.0;
+  const auto better = [](const Seed& a, const Seed& b) {
+    if (a.bound != b.bound) return a.bound > b.bound;
+    if (a.pose.theta != b.pose.theta) return a.pose.theta < b.pose.theta;
+    return a.pose.y != b.pose.y ? a.pose.y < b.pose.y : a.pose.x < b.pose.x;
+  };
+  lay_cells(side_m, half_rad);
+  keep_first(nodes_, params_.most_nodes.front(), better);
+  for (std::size_t level = 1; level < coarser + params_.most_nodes.size(); ++level) {
+    side_m *= 0.5;
+    quarter_cells(side_m, half_rad);
+    keep_first(nodes_, params_.most_nodes[level > coarser ? level - coarser : 0], better);
+  }
+  seeds_.insert(seeds_.end(), nodes_.begin(), nodes_.end());
+}
+
+/// Cells all over the plan, as far as one of their poses may be plausible.
+void GlobalSearch::lay_cells(double side_m, double half_rad) {
+  nodes_.clear();
   const auto steps = [&](double extent_m) { return static_cast<int>(std::ceil(extent_m / side_m)); };
   const int columns = steps(high_.x() - low_.x()), rows = steps(high_.y() - low_.y());
   for (const double heading : headings_) {
@@ -232,33 +252,26 @@ void GlobalSearch::add_lattice() {
         if (reached >= params_.least_log_ratio) nodes_.push_back({{position.x(), position.y(), heading}, reached});
       }
   }
-  const auto better = [](const Seed& a, const Seed& b) {
-    if (a.bound != b.bound) return a.bound > b.bound;
-    if (a.pose.theta != b.pose.theta) return a.pose.theta < b.pose.theta;
-    return a.pose.y != b.pose.y ? a.pose.y < b.pose.y : a.pose.x < b.pose.x;
-  };
-  keep_first(nodes_, params_.most_nodes.front(), better);
-  for (std::size_t level = 1; level < params_.most_nodes.size(); ++level) {
-    side_m *= 0.5;
-    std::sort(nodes_.begin(), nodes_.end(), [](const Seed& a, const Seed& b) { return a.pose.theta < b.pose.theta; });
-    children_.clear();
-    double heading = std::numeric_limits<double>::quiet_NaN();
-    for (const Seed& node : nodes_) {
-      if (node.pose.theta != heading) {
-        heading = node.pose.theta;
-        turn_beams(heading, {side_m * std::numbers::sqrt2 / 2.0, half_rad});
-      }
-      for (const double dx : {-0.5, 0.5})
-        for (const double dy : {-0.5, 0.5}) {
-          const Vector2d position = node.pose.translation() + side_m * Vector2d(dx, dy);
-          const double reached = bound(position);
-          if (reached >= params_.least_log_ratio) children_.push_back({{position.x(), position.y(), heading}, reached});
-        }
+}
+
+/// Four cells of half the side in place of each. \param side_m  the new one
+void GlobalSearch::quarter_cells(double side_m, double half_rad) {
+  std::sort(nodes_.begin(), nodes_.end(), [](const Seed& a, const Seed& b) { return a.pose.theta < b.pose.theta; });
+  children_.clear();
+  double heading = std::numeric_limits<double>::quiet_NaN();
+  for (const Seed& node : nodes_) {
+    if (node.pose.theta != heading) {
+      heading = node.pose.theta;
+      turn_beams(heading, {side_m * std::numbers::sqrt2 / 2.0, half_rad});
     }
-    keep_first(children_, params_.most_nodes[level], better);
-    nodes_.swap(children_);
+    for (const double dx : {-0.5, 0.5})
+      for (const double dy : {-0.5, 0.5}) {
+        const Vector2d position = node.pose.translation() + side_m * Vector2d(dx, dy);
+        const double reached = bound(position);
+        if (reached >= params_.least_log_ratio) children_.push_back({{position.x(), position.y(), heading}, reached});
+      }
   }
-  seeds_.insert(seeds_.end(), nodes_.begin(), nodes_.end());
+  nodes_.swap(children_);
 }
 
 /// The best ones that are not the same place.

@@ -27,6 +27,7 @@ struct GlobalSearchParams {
 
   // The lattice, coarse to fine.
   double coarsest_m = 0.4;
+  double most_cells = 250000.0;  ///< for each heading: 200 m x 200 m; a larger plan begins with coarser ones
   std::array<std::size_t, 3> most_nodes{3000, 1200, 3000};  ///< that are kept of 0.4 m, 0.2 m and 0.1 m
   double least_log_ratio = -6.0;                            ///< what cannot reach this is dropped at once
 
@@ -98,6 +99,8 @@ class GlobalSearch {
   void add_wall_constellations(const perception::Scene& scene);
   void add_wall_pair(const perception::Primitive& first, const perception::Primitive& second);
   void add_lattice();
+  void lay_cells(double side_m, double half_rad);
+  void quarter_cells(double side_m, double half_rad);
   void split(double side_m, std::size_t most);
   void bound_constellations();
   void choose_seeds();

@@ -51,6 +51,18 @@ TEST_F(GlobalSearchInARoom, WithoutPrimitivesAllHeadingsAreTried) {
   EXPECT_LT(turn(candidates.front().estimate.pose, truth), 0.005);
 }
 
+TEST_F(GlobalSearchInARoom, APlanOfMoreCellsThanAreLaidBeginsWithCoarserOnes) {
+  const Pose2 truth{2.7, 2.2, 1.1};
+  for (const double most : {100.0, 20.0, 1.0}) {
+    GlobalSearchParams params;
+    params.most_cells = most;
+    GlobalSearch search(map_, field_, test::rig_with_range(), params);
+    const auto& candidates = search.search(scanned(map_, truth));
+    ASSERT_FALSE(candidates.empty()) << most;
+    EXPECT_LT(distance(candidates.front().estimate.pose, truth), 0.02) << most;
+  }
+}
+
 TEST_F(GlobalSearchInARoom, CandidatesComeByFallingPlausibilityAndAreDifferentPlaces) {
   const auto& candidates = search_.search(scanned(map_, {2.7, 2.2, 1.1}));
   for (std::size_t i = 0; i + 1 < candidates.size(); ++i)
