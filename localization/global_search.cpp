@@ -228,12 +228,9 @@ void GlobalSearch::add_lattice() {
     if (a.pose.theta != b.pose.theta) return a.pose.theta < b.pose.theta;
     return a.pose.y != b.pose.y ? a.pose.y < b.pose.y : a.pose.x < b.pose.x;
   };
-  lay_cells(side_m, half_rad);
-  keep_first(nodes_, params_.most_nodes.front(), better);
-  for (std::size_t level = 1; level < coarser + params_.most_nodes.size(); ++level) {
-    side_m *= 0.5;
-    quarter_cells(side_m, half_rad);
-    keep_first(nodes_, params_.most_nodes[level > coarser ? level - coarser : 0], better);
+  for (std::size_t level = 0; level < coarser + params_.most_nodes.size(); ++level, side_m *= 0.5) {
+    level == 0 ? lay_cells(side_m, half_rad) : quarter_cells(side_m, half_rad);
+    keep_first(nodes_, level < coarser ? params_.most_coarser_nodes : params_.most_nodes[level - coarser], better);
   }
   seeds_.insert(seeds_.end(), nodes_.begin(), nodes_.end());
 }

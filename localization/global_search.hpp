@@ -27,7 +27,8 @@ struct GlobalSearchParams {
 
   // The lattice, coarse to fine.
   double coarsest_m = 0.4;
-  double most_cells = 250000.0;  ///< for each heading: 200 m x 200 m; a larger plan begins with coarser ones
+  double most_cells = 250000.0;             ///< for each heading: 200 m x 200 m; a larger plan begins with coarser ones
+  std::size_t most_coarser_nodes = 100000;  ///< that are kept of each coarser level
   std::array<std::size_t, 3> most_nodes{3000, 1200, 3000};  ///< that are kept of 0.4 m, 0.2 m and 0.1 m
   double least_log_ratio = -6.0;                            ///< what cannot reach this is dropped at once
 
