@@ -141,7 +141,7 @@ PoseProblem::Moments PoseProblem::moments_root(const PoseState::Vector& x) {
   const PoseState::Vector gradient = prior_.information * step;
   Moments moments;
   moments << prior_.information, gradient, gradient.transpose(), step.dot(gradient);
-  Eigen::Matrix<double, 2, PoseState::kSize + 1> rows;  // [J e]
+  Eigen::Matrix<double, 2, PoseState::kSize + 1, Eigen::RowMajor> rows;  // [J e]
   for (const ObservationTerm& term : terms_) {
     rows << term.by_state + term.by_step, term.residual + term.by_step * step;
     rows = term.whitener * rows;
