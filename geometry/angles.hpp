@@ -13,7 +13,9 @@ inline constexpr double kTurn = 2.0 * std::numbers::pi;  ///< a full one [rad]
 /// The angle in (-pi, pi] that is equal to `angle` modulo 2 pi. [rad]
 [[nodiscard]] inline double wrap_angle(double angle) {
   constexpr double kPi = std::numbers::pi;
-  if (angle > -kPi && angle <= kPi) return angle;  // most are, and the remainder is slow
+  // The remainder is slow; within a turn and a half it is this difference, which is exact (Sterbenz).
+  if (angle > -kPi && angle <= kPi) return angle;
+  if (std::abs(angle) < 3.0 * kPi) return angle > 0.0 ? angle - kTurn : angle + kTurn;
   const double wrapped = std::remainder(angle, 2.0 * kPi);
   return wrapped <= -kPi ? kPi : wrapped;
 }

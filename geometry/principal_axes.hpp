@@ -17,5 +17,7 @@ struct PrincipalAxes {
 /// In closed form: Eigen's decomposition gives the same and takes seconds to compile.
 /// \param covariance  symmetric
 [[nodiscard]] PrincipalAxes principal_axes(const Eigen::Matrix2d& covariance);
+/// PrincipalAxes::largest alone: without an arc tangent.
+[[nodiscard]] double largest_variance(const Eigen::Matrix2d& covariance);
 
 }  // namespace credo::geometry

@@ -40,7 +40,7 @@ CalibratedPose calibrated_pose(const sensors::Rig& rig, const geometry::PoseEsti
   calibrated.joint.topLeftCorner<3, 3>() = pose.covariance;
   calibrated.joint.diagonal().segment<3>(PoseState::kRangeX) = scan_variance(rig);
   calibrated.joint.diagonal().segment<3>(PoseState::kCameraTheta) = camera_variance(rig);
-  calibrated.with_plan = PoseState::Columns::Zero(PoseState::kSize, plan_errors);
+  calibrated.with_plan = PlanCovariance(plan_errors);
   return calibrated;
 }
 
@@ -48,9 +48,10 @@ void move(CalibratedPose& pose, const geometry::PoseEstimate& motion, const Cali
   // The end of the way turns with the heading at its start.
   const Eigen::Vector2d way = pose.pose.rotation() * motion.pose.translation();
   const Eigen::Vector2d aside(-way.y(), way.x());
-  pose.joint.topRows<2>() += aside * pose.joint.row(PoseState::kTheta);
-  pose.joint.leftCols<2>() += pose.joint.col(PoseState::kTheta) * aside.transpose();
-  for (const int i : {0, 1}) pose.with_plan.row(i) += aside(i) * pose.with_plan.row(PoseState::kTheta);
+  PoseState::Matrix turned = PoseState::Matrix::Identity();
+  turned.block<2, 1>(PoseState::kX, PoseState::kTheta) = aside;
+  pose.joint = turned * pose.joint * turned.transpose();
+  pose.with_plan.transform(turned);
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R.topLeftCorner<2, 2>() = pose.pose.rotation();
   pose.joint.topLeftCorner<3, 3>() += R * motion.covariance * R.transpose();
@@ -66,7 +67,9 @@ void place(CalibratedPose& pose, const geometry::PoseEstimate& elsewhere) {
   pose.joint.topRows<3>().setZero();
   pose.joint.leftCols<3>().setZero();
   pose.joint.topLeftCorner<3, 3>() = elsewhere.covariance;
-  pose.with_plan.topRows<3>().setZero();
+  PoseState::Matrix forget_pose = PoseState::Matrix::Identity();
+  forget_pose.topLeftCorner<3, 3>().setZero();
+  pose.with_plan.transform(forget_pose);
 }
 
 void widen(CalibratedPose& pose, const Eigen::Matrix3d& doubt) { pose.joint.topLeftCorner<3, 3>() += doubt; }

@@ -6,18 +6,11 @@
 #include <Eigen/Core>
 
 #include "geometry/pose.hpp"
+#include "localization/plan_covariance.hpp"
+#include "localization/pose_state.hpp"
 #include "sensors/acquisition.hpp"
 
 namespace credo::localization {
-
-/// What is estimated: the pose and what all readings of an instrument have in common.
-struct PoseState {
-  enum Index { kX, kY, kTheta, kRangeX, kRangeY, kRangeTheta, kCameraTheta, kCameraCos, kCameraSin, kSize };
-  using Vector = Eigen::Matrix<double, kSize, 1>;
-  using Matrix = Eigen::Matrix<double, kSize, kSize>;
-  using Jacobian = Eigen::Matrix<double, 2, kSize>;  ///< of a residual
-  using Columns = Eigen::Matrix<double, kSize, Eigen::Dynamic>;
-};
 
 /// A pose and the calibration of the instruments, estimated together, with all that is known of their errors: how they
 /// go with each other and with the plan's. The plan's errors come again whenever a landmark is seen again, so they do
@@ -29,10 +22,9 @@ struct CalibratedPose {
   /// [m, m, rad, rad, rad, rad]
   Eigen::Matrix<double, 6, 1> common_errors = Eigen::Matrix<double, 6, 1>::Zero();
   PoseState::Matrix joint = PoseState::Matrix::Zero();  ///< covariance of (pose, common errors)
-  /// Covariance of the same with the plan's errors, in their standard deviations: columns 2 j and 2 j + 1 are x and y
-  /// of junction j, and after all junctions, by id, two for what each landmark is off beside them: x and y of a point,
-  /// offset and angle of a wall.
-  PoseState::Columns with_plan;
+  /// Covariance of the same with the plan's errors: columns 2 j and 2 j + 1 are x and y of junction j, and after all
+  /// junctions, by id, two for what each landmark is off beside them: x and y of a point, offset and angle of a wall.
+  PlanCovariance with_plan;
 
   [[nodiscard]] PoseState::Vector state() const;
   [[nodiscard]] Eigen::Matrix3d covariance() const { return joint.topLeftCorner<3, 3>(); }
@@ -47,7 +39,7 @@ struct CalibrationWalk {
 };
 
 /// A pose that is independent of the calibration, and that as the rig's calibration accuracy says.
-/// \param plan_errors  columns of CalibratedPose::with_plan; 0 without a plan
+/// \param plan_errors  of CalibratedPose::with_plan; 0 without a plan
 [[nodiscard]] CalibratedPose calibrated_pose(const sensors::Rig& rig, const geometry::PoseEstimate& pose,
                                              int plan_errors = 0);
 

@@ -34,7 +34,7 @@ bool invert(const StateMatrix& information, StateMatrix& covariance) {
 }
 
 double largest_sigma(const Matrix3d& covariance) {
-  return std::sqrt(std::max(0.0, geometry::principal_axes(covariance.topLeftCorner<2, 2>()).largest));
+  return std::sqrt(std::max(0.0, geometry::largest_variance(covariance.topLeftCorner<2, 2>())));
 }
 
 /// How far a pose is from another in standard deviations of the difference: the root of chi-square with 3 degrees of

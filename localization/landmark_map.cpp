@@ -280,7 +280,7 @@ bool LandmarkMap::sees(const Eigen::Vector2d& viewpoint, const Eigen::Vector2d& 
   const Eigen::Vector2d way = target - viewpoint;
   const double reach = way.norm() - margin_m;
   if (reach <= 0.0) return true;
-  return grid_.first_crossing(viewpoint, way.normalized(), reach) >= reach;
+  return !grid_.any_crossing(viewpoint, way.normalized(), reach);
 }
 
 }  // namespace credo::localization

@@ -58,7 +58,7 @@ evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& eviden
 
 void judge(Localization& localization, bool camera_seen, bool range_finder_seen, const StatusParams& params) {
   const Eigen::Matrix3d& P = localization.estimate.covariance;
-  const double sigma = std::sqrt(geometry::principal_axes(P.topLeftCorner<2, 2>()).largest);
+  const double sigma = std::sqrt(geometry::largest_variance(P.topLeftCorner<2, 2>()));
   const BinaryMass& belief = localization.belief;
   localization.reason.clear();
   const auto because = [&localization](const char* words) {

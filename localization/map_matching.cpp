@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "evidence/gated_match.hpp"
@@ -36,12 +37,22 @@ BinaryMass accepted(std::span<const BinaryMass> criteria) {
 constexpr std::size_t kUsualPrimitives = 256;
 constexpr std::size_t kUsualCandidates = 64;  // of one primitive
 
+/// From how many standard deviations on the azimuth forbids a match whatever the range says; infinity: it never does.
+double azimuth_gate(const MapMatchingParams& params) {
+  const evidence::RampBelief& shape = params.point_azimuth;
+  const bool forbids = shape.max_no >= params.point_range.max_yes && shape.no_zero_until <= shape.no_full_from;
+  if (params.method == Method::kPaper || !forbids) return std::numeric_limits<double>::infinity();
+  return std::max(shape.yes_zero_from, shape.no_full_from);
+}
+
 /// How far [low, high] reaches beyond [0, length]. [m]
 double excess_of(double low, double high, double length) { return std::max({0.0, -low, high - length}); }
 
 }  // namespace
 
-MapMatcher::MapMatcher(const LandmarkMap& map, const MapMatchingParams& params) : map_(&map), params_(params) {
+MapMatcher::MapMatcher(const LandmarkMap& map, const MapMatchingParams& params)
+    : map_(&map), params_(params), azimuth_gate_(azimuth_gate(params)) {
+  sought_.reserve(kUsualPrimitives);
   matcher_.reserve(kUsualCandidates);
   visible_.reserve(kUsualPrimitives);
   evidence_.reserve(kUsualPrimitives);
@@ -175,20 +186,48 @@ const std::vector<MapMatch>& MapMatcher::match_walls(const perception::Scene& sc
   return matches_;
 }
 
+void MapMatcher::list_sought(const perception::Scene& scene, std::span<const int> primitives) {
+  sought_.clear();
+  for (const int p : primitives) {
+    const Primitive& point = scene.primitives[static_cast<std::size_t>(p)];
+    if (point.type == PrimitiveType::kWall) continue;
+    sought_.push_back({{std::cos(point.azimuth), std::sin(point.azimuth)},
+                       point.sigma_azimuth * point.sigma_azimuth,
+                       point.bearing_only});
+  }
+}
+
+/// Whether a point of the map may be one of what is sought, by its direction: most are not, and this is quickly told.
+/// The sine of an angle is at most the angle, and the variance across the way at most twice that of its parts.
+bool MapMatcher::is_sought(const Vector2d& in_base, const Vector2d& camera_origin,
+                           const Eigen::Matrix3d& pose_covariance) const {
+  const double u = map_->uncertainty_m();
+  const double across_variance =
+      2.0 * (pose_covariance(0, 0) + pose_covariance(1, 1) + pose_covariance(2, 2) * in_base.squaredNorm()) + u * u;
+  const double gate = azimuth_gate_ * azimuth_gate_;
+  return std::any_of(sought_.begin(), sought_.end(), [&](const Sought& sought) {
+    const Vector2d way = sought.from_camera ? Vector2d(in_base - camera_origin) : in_base;
+    const double reach = gate * (across_variance + sought.azimuth_variance * way.squaredNorm());
+    const double across = sought.direction.x() * way.y() - sought.direction.y() * way.x();
+    return reach >= way.squaredNorm() || (across * across <= reach && sought.direction.dot(way) > 0.0);
+  });
+}
+
 void MapMatcher::list_visible_points(const PoseEstimate& pose, const Vector2d& camera_origin,
                                      std::span<const tracking::LandmarkId> taken) {
   visible_.clear();
   const Vector2d viewpoint = pose.pose.translation();
-  const geometry::Pose2 T_base_map = pose.pose.inverse();
+  const Matrix2d R_base_map = pose.pose.rotation().transpose();
   const double u = map_->uncertainty_m(), farthest_squared = params_.farthest_m * params_.farthest_m;
   for (std::size_t k = 0; k < map_->points().size(); ++k) {
     const PointLandmark& point = map_->points()[k];
     if ((point.position - viewpoint).squaredNorm() > farthest_squared) continue;
+    const Vector2d in_base = R_base_map * (point.position - viewpoint);
+    if (!is_sought(in_base, camera_origin, pose.covariance)) continue;
     const tracking::LandmarkId id = map_->point_id(k);
     if (std::find(taken.begin(), taken.end(), id) != taken.end()) continue;
     const auto type = map_->type_from(point, viewpoint);
     if (!type || !map_->shows(viewpoint, point.position)) continue;
-    const Vector2d in_base = T_base_map * point.position;
     const auto J = base_coordinates_by_pose(pose.pose, in_base);
     const Matrix2d covariance = J * pose.covariance * J.transpose() + u * u * Matrix2d::Identity();
     visible_.push_back({id, *type, view(in_base, covariance), view(in_base - camera_origin, covariance)});
@@ -198,6 +237,7 @@ void MapMatcher::list_visible_points(const PoseEstimate& pose, const Vector2d& c
 const std::vector<MapMatch>& MapMatcher::match_points(const perception::Scene& scene, std::span<const int> primitives,
                                                       const PoseEstimate& pose,
                                                       std::span<const tracking::LandmarkId> taken) {
+  list_sought(scene, primitives);
   list_visible_points(pose, scene.camera_origin, taken);
   claims_.clear();
   for (const int p : primitives) {

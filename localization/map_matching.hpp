@@ -122,8 +122,17 @@ class MapMatcher {
     PolarView from_base, from_camera;
   };
   struct SeenWall;
+  /// A primitive whose point of the map is looked for.
+  struct Sought {
+    Eigen::Vector2d direction;  ///< unit vector, from the base or the camera
+    double azimuth_variance = 0.0;
+    bool from_camera = false;
+  };
 
   [[nodiscard]] static PolarView view(const Eigen::Vector2d& way, const Eigen::Matrix2d& covariance);
+  void list_sought(const perception::Scene& scene, std::span<const int> primitives);
+  [[nodiscard]] bool is_sought(const Eigen::Vector2d& in_base, const Eigen::Vector2d& camera_origin,
+                               const Eigen::Matrix3d& pose_covariance) const;
   void list_visible_points(const geometry::PoseEstimate& pose, const Eigen::Vector2d& camera_origin,
                            std::span<const tracking::LandmarkId> taken);
   /// m_m, its conflict as ignorance; all NO where the conflict or NO forbids the match.
@@ -138,6 +147,8 @@ class MapMatcher {
   const LandmarkMap* map_;
   MapMatchingParams params_;
   evidence::OpenWorldMatcher matcher_;
+  double azimuth_gate_;  ///< innovation in standard deviations beyond which the azimuth alone forbids a match
+  std::vector<Sought> sought_;
   std::vector<VisiblePoint> visible_;
   std::vector<evidence::BinaryMass> evidence_;    ///< one row: a primitive against its candidates
   std::vector<tracking::LandmarkId> candidates_;  ///< of that row

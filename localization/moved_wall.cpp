@@ -32,10 +32,10 @@ BelievedWall believed_wall(const WallFootprint& wall, const PoseSolution& soluti
                            const PoseState::Matrix& prior_covariance) {
   // 1 / s: an error of a thousand standard deviations.
   constexpr double kAnySize = 1e-6;
-  using TwoColumns = Eigen::Matrix<double, PoseState::kSize, 2>;
-  TwoColumns drawn = solution.prior_by_plan.middleCols<2>(wall.column);  // P^-1 c
+  PoseState::Pair c = solution.prior_with_plan[wall.column];
   for (const WallFootprint::Corner& corner : wall.corners)
-    drawn.col(0) += solution.prior_by_plan.middleCols<2>(corner.column) * wall.normal;
+    c.col(0) += solution.prior_with_plan[corner.column] * wall.normal;
+  const PoseState::Pair drawn = solution.prior_information * c;  // P^-1 c
   const Eigen::Matrix2d size = drawn.transpose() * prior_covariance * drawn + kAnySize * Eigen::Matrix2d::Identity();
   BelievedWall believed;
   believed.by_state = drawn.transpose();

@@ -15,10 +15,10 @@ namespace credo::localization {
 struct WallFootprint {
   struct Corner {
     tracking::LandmarkId point = tracking::kNoLandmark;
-    Eigen::Index column = 0;  ///< of CalibratedPose::with_plan: the first of its own two errors
+    int column = 0;  ///< of CalibratedPose::with_plan: the first of its own two errors
   };
   Eigen::Vector2d normal = Eigen::Vector2d::UnitY();
-  Eigen::Index column = 0;  ///< likewise of the wall
+  int column = 0;  ///< likewise of the wall
   std::vector<Corner> corners;
 
   [[nodiscard]] bool carries(tracking::LandmarkId landmark) const;
@@ -38,7 +38,7 @@ struct BelievedWall {
 /// The prior's covariance with the wall's error, c, is how far an error of one standard deviation has drawn the state.
 /// Were it of any size, the prior's information would be (P + c c^T s)^-1, s growing: P^-1 - P^-1 c (c^T P^-1 c)^-1
 /// c^T P^-1.
-/// \param solution          with PoseSolution::prior_by_plan
+/// \param solution          with PoseSolution::prior_with_plan
 /// \param prior_covariance  the inverse of PoseSolution::prior_information
 [[nodiscard]] BelievedWall believed_wall(const WallFootprint& wall, const PoseSolution& solution,
                                          const PoseState::Matrix& prior_covariance);

@@ -182,7 +182,7 @@ bool PoseHypotheses::convincing() const {
   if (held_.empty()) return false;
   const Held& held = held_.front();
   const Eigen::Matrix3d& P = held.estimate.covariance;
-  const double sigma_m = std::sqrt(geometry::principal_axes(P.topLeftCorner<2, 2>()).largest);
+  const double sigma_m = std::sqrt(geometry::largest_variance(P.topLeftCorner<2, 2>()));
   return belief_in_best() >= params_.least_belief && held.now.log_ratio >= params_.least_log_ratio &&
          held.now.scan_share() >= params_.least_scan_share && held.scenes >= params_.least_scenes &&
          (held.way_m >= params_.least_way_m || held.turn_rad >= params_.least_turn_rad) &&

@@ -85,38 +85,41 @@ void evaluate(const Observation& o, const geometry::Pose2& pose, Vector2d& resid
   evaluate(o, x, residual, nullptr);
 }
 
-ResidualCovariance residual_covariance(const Observation& o, const StateFrame& frame) {
+Matrix2d residual_by_landmark(const Observation& o, const StateFrame& frame) {
+  if (o.kind != ObservationKind::kBearing) return -Matrix2d::Identity();
+  Matrix2d J = Matrix2d::Zero();
+  J.row(0) = bearing_by_place(o, frame).transpose();
+  return J;
+}
+
+ResidualCovariance residual_covariance(const Observation& o, const StateFrame& frame, const Matrix2d& by_landmark) {
   switch (o.kind) {
     case ObservationKind::kWall: return {o.noise, o.plan};
     case ObservationKind::kPoint: return {frame.R * o.noise * frame.R.transpose(), o.plan};
     case ObservationKind::kBearing: {
-      const Vector2d aside = bearing_by_place(o, frame);
-      Matrix2d noise = Matrix2d::Identity(), plan = Matrix2d::Zero();
+      Matrix2d noise = Matrix2d::Identity();
       noise(0, 0) = o.noise(0, 0);
-      plan(0, 0) = aside.dot(o.plan * aside);
-      return {noise, plan};
+      return {noise, by_landmark * o.plan * by_landmark.transpose()};
     }
   }
   return {};
 }
 
-ByPlan by_plan(const Observation& o, std::size_t index, const Vector2d& fixed, const StateFrame& frame) {
+ResidualCovariance residual_covariance(const Observation& o, const StateFrame& frame) {
+  return residual_covariance(o, frame, residual_by_landmark(o, frame));
+}
+
+LandmarkByPlan landmark_by_plan(const Observation& o, std::size_t index, const Vector2d& fixed) {
   const bool own = index == o.plan_terms.size();
-  const PlanTerm term = own ? PlanTerm{} : o.plan_terms[index];
-  const double sigma = own ? o.own_sigma_m : o.plan_sigma_m;
-  ByPlan by{own ? o.own_column : 2 * term.junction};
-  switch (o.kind) {
-    case ObservationKind::kWall: {
-      const Vector2d normal = quarter_turned(fixed);
-      by.J.row(0) = -sigma * (term.offset + term.slope * o.plan_along_m) * normal.transpose();
-      by.J.row(1) = -sigma * term.slope * normal.transpose();
-      if (own) by.J = -Vector2d(o.own_sigma_m, o.own_sigma_rad).asDiagonal().toDenseMatrix();
-      break;
-    }
-    case ObservationKind::kPoint: by.J = -sigma * Matrix2d::Identity(); break;
-    case ObservationKind::kBearing: by.J.row(0) = sigma * bearing_by_place(o, frame).transpose(); break;
+  if (o.kind != ObservationKind::kWall) {
+    const int column = own ? o.own_column : 2 * o.plan_terms[index].junction;
+    return {column, (own ? o.own_sigma_m : o.plan_sigma_m) * Matrix2d::Identity()};
   }
-  return by;
+  if (own) return {o.own_column, Vector2d(o.own_sigma_m, o.own_sigma_rad).asDiagonal()};
+  const PlanTerm& term = o.plan_terms[index];
+  const Vector2d normal = quarter_turned(fixed);
+  return {2 * term.junction,
+          o.plan_sigma_m * Vector2d(term.offset + term.slope * o.plan_along_m, term.slope) * normal.transpose()};
 }
 
 }  // namespace credo::localization

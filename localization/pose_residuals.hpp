@@ -74,16 +74,24 @@ struct ResidualCovariance {
 
   [[nodiscard]] Eigen::Matrix2d whole() const { return noise + plan; }
 };
+/// \param by_landmark  residual_by_landmark(observation, frame)
+[[nodiscard]] ResidualCovariance residual_covariance(const Observation& observation, const StateFrame& frame,
+                                                     const Eigen::Matrix2d& by_landmark);
 [[nodiscard]] ResidualCovariance residual_covariance(const Observation& observation, const StateFrame& frame);
 
-/// Derivative of the residual by two of the plan's errors, which have a column each in CalibratedPose::with_plan.
-/// \param index  0 .. plan_terms.size() - 1: the junctions; plan_terms.size(): the landmark's own
-struct ByPlan {
-  Eigen::Index column = 0;  ///< the first of two
-  Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
+/// Derivative of the residual by what the landmark is off: (across, angle) of a wall's line where it was observed, (x,
+/// y) of a point. Observation::plan is the covariance of that.
+[[nodiscard]] Eigen::Matrix2d residual_by_landmark(const Observation& observation, const StateFrame& frame);
+
+/// By how much a landmark is off with two of the plan's errors, which have a column each in CalibratedPose::with_plan.
+struct LandmarkByPlan {
+  int column = 0;  ///< the first of two
+  Eigen::Matrix2d derivative = Eigen::Matrix2d::Zero();
 };
-[[nodiscard]] ByPlan by_plan(const Observation& observation, std::size_t index, const Eigen::Vector2d& fixed,
-                             const StateFrame& frame);
+/// \param index  0 .. plan_terms.size() - 1: the junctions; plan_terms.size(): the landmark's own
+/// \param fixed  fixed_direction(observation)
+[[nodiscard]] LandmarkByPlan landmark_by_plan(const Observation& observation, std::size_t index,
+                                              const Eigen::Vector2d& fixed);
 /// How many of them there are.
 [[nodiscard]] inline std::size_t plan_count(const Observation& observation) {
   return observation.plan_terms.empty() ? 0 : observation.plan_terms.size() + 1;

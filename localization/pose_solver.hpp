@@ -44,8 +44,7 @@ struct PoseSolution {
 
   PoseState::Matrix prior_information = PoseState::Matrix::Identity();  ///< of the state before
   PoseState::Vector step = PoseState::Vector::Zero();                   ///< from the state before
-  PoseState::Columns
-      prior_by_plan;  ///< prior_information times the covariance with the plan, CalibratedPose::with_plan
+  PlanCovariance prior_with_plan;                                       ///< of the state before
 
   [[nodiscard]] geometry::PoseEstimate estimate() const { return pose.estimate(); }
 };

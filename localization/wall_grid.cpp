@@ -22,10 +22,10 @@ constexpr double kBorder_m = 1e-3;
 double crossing(const Vector2d& origin, const Vector2d& direction, const Segment& wall) {
   const Vector2d along = wall.b - wall.a, to = wall.a - origin;
   const double det = along.x() * direction.y() - along.y() * direction.x();
-  if (std::abs(det) < 1e-12) return kNowhere;
+  const double share = direction.x() * to.y() - direction.y() * to.x();  // of the wall, times det
+  if (std::abs(det) < 1e-12 || std::abs(share) > std::abs(det) || share * det < 0.0) return kNowhere;
   const double distance = (along.x() * to.y() - along.y() * to.x()) / det;
-  const double share = (direction.x() * to.y() - direction.y() * to.x()) / det;
-  return distance > 0.0 && share >= 0.0 && share <= 1.0 ? distance : kNowhere;
+  return distance > 0.0 ? distance : kNowhere;
 }
 
 /// A ray's way through the squares of a grid along one axis.
@@ -109,29 +109,48 @@ void WallGrid::for_each_square(const Segment& wall, Visit&& visit) const {
 }
 
 /// From square to square along the ray (Amanatides and Woo, Eurographics 1987).
-WallGrid::Met WallGrid::first_wall(const Vector2d& origin, const Vector2d& direction, double reach_m) const {
-  if (entries_.empty()) return {};
+/// \param visit  takes the square and how far its end is along the ray; tells whether to go on
+template <class Visit>
+void WallGrid::walk(const Vector2d& origin, const Vector2d& direction, double reach_m, Visit&& visit) const {
+  if (entries_.empty()) return;
   const Vector2d size = side_m_ * Vector2d(columns_, rows_), start = origin - origin_;
   double from = 0.0, to = reach_m;
   clip(start.x(), direction.x(), 0.0, size.x(), from, to);
   clip(start.y(), direction.y(), 0.0, size.y(), from, to);
-  if (!(from <= to)) return {};
+  if (!(from <= to)) return;
   const Vector2d entry = start + from * direction;
   AxisWalk x(entry.x(), direction.x(), from, side_m_, columns_), y(entry.y(), direction.y(), from, side_m_, rows_);
-  Met nearest;
   while (true) {
-    for (const Entry& entry_here : walls_in({x.square, y.square})) {
-      const double range = crossing(origin, direction, entry_here.wall);
-      if (range < nearest.range_m) nearest = {range, &entry_here.wall};
-    }
     const double left = std::min(x.next, y.next);
-    if (nearest.range_m <= left || left >= to) break;
-    AxisWalk& walk = x.next < y.next ? x : y;
-    walk.square += walk.step;
-    walk.next += walk.growth;
-    if (x.square < 0 || x.square >= columns_ || y.square < 0 || y.square >= rows_) break;
+    if (!visit(Square{x.square, y.square}, left) || left >= to) return;
+    AxisWalk& axis = x.next < y.next ? x : y;
+    axis.square += axis.step;
+    axis.next += axis.growth;
+    if (x.square < 0 || x.square >= columns_ || y.square < 0 || y.square >= rows_) return;
   }
+}
+
+WallGrid::Met WallGrid::first_wall(const Vector2d& origin, const Vector2d& direction, double reach_m) const {
+  Met nearest;
+  walk(origin, direction, reach_m, [&](const Square& square, double left) {
+    for (const Entry& entry : walls_in(square)) {
+      const double range = crossing(origin, direction, entry.wall);
+      if (range < nearest.range_m) nearest = {range, &entry.wall};
+    }
+    return nearest.range_m > left;
+  });
   return nearest.range_m < reach_m ? nearest : Met{};
+}
+
+bool WallGrid::any_crossing(const Vector2d& origin, const Vector2d& direction, double reach_m) const {
+  bool crossed = false;
+  walk(origin, direction, reach_m, [&](const Square& square, double) {
+    const std::span<const Entry> here = walls_in(square);
+    crossed = std::any_of(here.begin(), here.end(),
+                          [&](const Entry& entry) { return crossing(origin, direction, entry.wall) < reach_m; });
+    return !crossed;
+  });
+  return crossed;
 }
 
 RayHit WallGrid::first_hit(const Vector2d& origin, const Vector2d& direction, double reach_m) const {

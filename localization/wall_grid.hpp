@@ -30,7 +30,10 @@ class WallGrid {
                                       double reach_m) const {
     return first_wall(origin, direction, reach_m).range_m;
   }
-  /// The same with the wall's normal.
+  /// Whether there is one.
+  [[nodiscard]] bool any_crossing(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction,
+                                  double reach_m) const;
+  /// The first one with its normal.
   [[nodiscard]] RayHit first_hit(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double reach_m) const;
 
   /// Whether any wall is at most that far from a point.
@@ -56,6 +59,8 @@ class WallGrid {
     Square first, last;
   };
 
+  template <class Visit>
+  void walk(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double reach_m, Visit&& visit) const;
   [[nodiscard]] Met first_wall(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double reach_m) const;
   template <class Visit>
   void for_each_square(const geometry::Segment& wall, Visit&& visit) const;

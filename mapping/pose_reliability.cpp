@@ -24,7 +24,7 @@ PoseReliability::PoseReliability(const evidence::Believed<geometry::PoseEstimate
   const double pignistic = T_map_base.belief.pignistic();
   if (!(pignistic >= params.min_pignistic)) return;
   belief_ = std::min(pignistic, 1.0);
-  const double position_variance = geometry::principal_axes(covariance.topLeftCorner<2, 2>()).largest;
+  const double position_variance = geometry::largest_variance(covariance.topLeftCorner<2, 2>());
   const double half = params.half_at_sigma_cells * resolution_m;
   position_share_ = position_variance / (half * half);
   heading_share_ = covariance(2, 2) / (half * half);

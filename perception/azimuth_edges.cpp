@@ -9,8 +9,13 @@
 #include <cstring>
 #include <numbers>
 
+#include "geometry/angles.hpp"
+
 namespace credo::perception {
 namespace {
+
+constexpr int kHitLanes = 8;  // hits that are reckoned side by side
+using HitLanes = Eigen::Array<double, kHitLanes, 1>;
 
 constexpr int kBlock = 16;          // columns that are skipped together where there is no extremum
 constexpr int kLargestTapSum = 32;  // keeps the answer to 255 * AnnulusTable::kScale within 16 bits
@@ -71,6 +76,9 @@ AzimuthEdgeFilter::AzimuthEdgeFilter(const EdgeFilterParams& params, double colu
       marks_(max_columns),
       response_(max_columns + 2 * kMargin) {
   widths_.reserve(samples_.size());
+  columns_.reserve(marks_.size());
+  pairs_.reserve(marks_.size());
+  shifts_.reserve(marks_.size());
   const double sigma = std::max(1.0, params.sigma_px / column_px);  // in columns, at least one
   std::array<double, kReach> ideal{};
   double sum = 0.0;
@@ -174,88 +182,118 @@ void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixe
   const double saturated_sample = params_.saturated_level * AnnulusTable::kScale;
   for (int row = 0; row < static_cast<int>(table.rows().size()); ++row) {
     filter_row(table, pixels, row);
-    const int columns = table.rows()[row].columns;
+    const AnnulusRow& circle = table.rows()[row];
+    const int columns = circle.columns;
     mark_extrema(response_.data() + kMargin, columns, least, marks_.data());
     row_saturates_ =
         *std::max_element(samples_.begin() + kMargin, samples_.begin() + kMargin + columns) > saturated_sample;
-    const std::size_t first = hits.size();
+    columns_.clear();
     for (int block = 0; block < columns; block += kBlock) {
       if (!any_of_block(marks_.data() + block)) continue;
       for (int i = block; i < block + kBlock; ++i)
-        if (marks_[i] != 0) add_hit(table, row, i, hits);
+        if (marks_[i] != 0 && usable(table, row, i)) columns_.push_back(i);
     }
-    separate(table.rows()[row], hits, first);
+    const std::size_t before = hits.size();
+    for (std::size_t first = 0; first < columns_.size(); first += kHitLanes)
+      add_hits(circle, row,
+               std::span(columns_).subspan(first, std::min<std::size_t>(kHitLanes, columns_.size() - first)), hits);
+    separate(circle, std::span(hits).subspan(before));
   }
 }
 
 /// Two steps a1, a2 at x1 < x2 whose answers are Gaussians g of width w: the extremum near x1 lies where
 /// a1 (m - x1) g(m - x1) + a2 (m - x2) g(m - x2) = 0, so m - x1 = (a2 / a1) d g(d) / g(m - x1) with d = x2 - m. To
 /// first order the last g is 1; the measured heights give a1, a2 by two linear equations with g(d).
-void AzimuthEdgeFilter::separate(const AnnulusRow& circle, std::vector<EdgeHit>& hits, std::size_t first) const {
+/// \param pairs  the first of two neighbouring hits each, at most kHitLanes
+void AzimuthEdgeFilter::part(std::span<const int> pairs, double width, const EdgeHit* hits) {
   static const Overlap overlap_at;
-  const double width = width_columns_ * 2.0 * std::numbers::pi / circle.columns;
-  const double reach = params_.neighbour_reach * width;
-  double carried = 0.0;  // shift of the later hit by the pair before
-  for (std::size_t i = first; i + 1 < hits.size(); ++i) {
-    EdgeHit& a = hits[i];
-    EdgeHit& b = hits[i + 1];
-    const double apparent = b.azimuth - a.azimuth;
-    double shift_a = 0.0;
-    double shift_b = 0.0;
-    if (apparent < reach) {
-      double distance = apparent;
-      for (int round = 0; round < 3; ++round) {  // the true distance is what the shifts leave of the apparent one
-        const double overlap = overlap_at(distance / width);
-        const double a_step = a.step - overlap * b.step;
-        const double b_step = b.step - overlap * a.step;
-        const double limit = 0.35 * apparent;
-        shift_a = std::clamp(b_step / a_step * distance * overlap, -limit, limit);
-        shift_b = -std::clamp(a_step / b_step * distance * overlap, -limit, limit);
-        distance = std::max(width, apparent + shift_a - shift_b);
-      }
-    }
-    const double shift = shift_a + carried;
-    a.azimuth -= static_cast<float>(shift);
-    a.sigma = static_cast<float>(length(a.sigma, params_.neighbour_share * shift));
-    carried = shift_b;
+  HitLanes apparent, a_height, b_height;
+  for (int lane = 0; lane < kHitLanes; ++lane) {
+    const auto i = static_cast<std::size_t>(pairs[std::min(lane, static_cast<int>(pairs.size()) - 1)]);
+    apparent[lane] = hits[i + 1].azimuth - hits[i].azimuth;
+    a_height[lane] = hits[i].step;
+    b_height[lane] = hits[i + 1].step;
   }
-  if (hits.size() > first && carried != 0.0) {
-    EdgeHit& last = hits.back();
-    last.azimuth -= static_cast<float>(carried);
-    last.sigma = static_cast<float>(length(last.sigma, params_.neighbour_share * carried));
+  const HitLanes limit = 0.35 * apparent;
+  HitLanes distance = apparent, shift_a, shift_b;
+  for (int round = 0; round < 3; ++round) {  // the true distance is what the shifts leave of the apparent one
+    const HitLanes overlap = (distance / width).unaryExpr([](double x) { return overlap_at(x); });
+    const HitLanes a_step = a_height - overlap * b_height;
+    const HitLanes b_step = b_height - overlap * a_height;
+    shift_a = (b_step / a_step * distance * overlap).max(-limit).min(limit);
+    shift_b = -(a_step / b_step * distance * overlap).max(-limit).min(limit);
+    distance = (apparent + shift_a - shift_b).max(width);
+  }
+  for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
+    const auto i = static_cast<std::size_t>(pairs[lane]);
+    shifts_[i] += shift_a[static_cast<Eigen::Index>(lane)];
+    shifts_[i + 1] += shift_b[static_cast<Eigen::Index>(lane)];
   }
 }
 
-void AzimuthEdgeFilter::add_hit(const AnnulusTable& table, int row, int column, std::vector<EdgeHit>& hits) const {
-  const AnnulusRow& circle = table.rows()[row];
-  const std::int16_t* response = response_.data() + kMargin + column;
-  const std::int16_t* sample = samples_.data() + kMargin + column;
-  if (!table.all_usable()) {
-    for (int i = -kReach; i <= kReach; ++i) {
-      if (!table.usable(row, (column + i + circle.columns) % circle.columns)) return;
-    }
+/// Moves neighbours that shift each other apart.
+/// \param hits  of one circle, by azimuth: the first may be below 0, and is wrapped
+void AzimuthEdgeFilter::separate(const AnnulusRow& circle, std::span<EdgeHit> hits) {
+  const double width = width_columns_ * 2.0 * std::numbers::pi / circle.columns;
+  const double reach = params_.neighbour_reach * width;
+  shifts_.assign(hits.size(), 0.0);
+  pairs_.clear();
+  for (std::size_t i = 0; i + 1 < hits.size(); ++i)
+    if (hits[i + 1].azimuth - hits[i].azimuth < reach) pairs_.push_back(static_cast<int>(i));
+  for (std::size_t first = 0; first < pairs_.size(); first += kHitLanes)
+    part(std::span(pairs_).subspan(first, std::min<std::size_t>(kHitLanes, pairs_.size() - first)), width, hits.data());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (shifts_[i] == 0.0) continue;
+    hits[i].azimuth -= static_cast<float>(shifts_[i]);
+    hits[i].sigma = static_cast<float>(length(hits[i].sigma, params_.neighbour_share * shifts_[i]));
   }
-  const auto brightest = [sample] { return *std::max_element(sample - kReach, sample + kReach + 1); };
-  const bool saturated = row_saturates_ && brightest() > params_.saturated_level * AnnulusTable::kScale;
-  const double curvature = std::abs(2.0 * response[0] - response[-1] - response[1]);
-  const double between = curvature > 0.0 ? 0.5 * (response[1] - response[-1]) / curvature : 0.0;
-  const double sign = response[0] > 0 ? 1.0 : -1.0;
+  if (!hits.empty() && hits.front().azimuth < 0.0F) hits.front().azimuth += static_cast<float>(geometry::kTurn);
+}
+
+/// Whether the filter at a column takes in usable samples only.
+bool AzimuthEdgeFilter::usable(const AnnulusTable& table, int row, int column) const {
+  if (table.all_usable()) return true;
+  const int columns = table.rows()[row].columns;
+  for (int i = -kReach; i <= kReach; ++i)
+    if (!table.usable(row, (column + i + columns) % columns)) return false;
+  return true;
+}
+
+bool AzimuthEdgeFilter::saturates(int column) const {
+  const std::int16_t* sample = samples_.data() + kMargin + column;
+  return *std::max_element(sample - kReach, sample + kReach + 1) > params_.saturated_level * AnnulusTable::kScale;
+}
+
+/// \param columns  of the row's extrema, at most kHitLanes
+void AzimuthEdgeFilter::add_hits(const AnnulusRow& circle, int row, std::span<const int> columns,
+                                 std::vector<EdgeHit>& hits) const {
+  HitLanes column, before, here, after, model_px;
+  std::array<bool, kHitLanes> saturated;
+  for (int lane = 0; lane < kHitLanes; ++lane) {
+    const int i = columns[std::min(lane, static_cast<int>(columns.size()) - 1)];
+    const std::int16_t* response = response_.data() + kMargin + i;
+    column[lane] = i;
+    before[lane] = response[-1];
+    here[lane] = response[0];
+    after[lane] = response[1];
+    saturated[lane] = row_saturates_ && saturates(i);
+    model_px[lane] = saturated[lane] ? params_.saturated_sigma_px : params_.model_sigma_px;
+  }
   const double column_rad = 2.0 * std::numbers::pi / circle.columns;
-  const double noise_px =
-      curvature > 0.0 ? extremum_gain_ * noise_ / curvature * column_rad * circle.radius_px : circle.radius_px;
-  const double variance = curvature > 0.0 ? std::abs(response[0]) / curvature : width_columns_ * width_columns_;
   const double sharp = params_.broad_from * width_columns_;
-  const double excess_px = column_px_ * std::sqrt(std::max(0.0, variance - sharp * sharp));
-  const double model_px = saturated ? params_.saturated_sigma_px : params_.model_sigma_px;
-  const double broad_px = params_.broad_share * excess_px;
-  const double sigma_px = std::sqrt(noise_px * noise_px + model_px * model_px + broad_px * broad_px);
-  double azimuth = (column + sign * between) * column_rad;
-  if (azimuth < 0.0) azimuth += 2.0 * std::numbers::pi;
-  hits.push_back({.azimuth = static_cast<float>(azimuth),
-                  .sigma = static_cast<float>(sigma_px / circle.radius_px),
-                  .step = static_cast<float>(response[0] / gain_),
-                  .row = static_cast<std::int16_t>(row),
-                  .saturated = saturated});
+  const HitLanes curvature = (2.0 * here - before - after).abs();  // > 0 at an extremum
+  const HitLanes between = here.sign() * (0.5 * (after - before) / curvature);
+  const HitLanes noise_px = extremum_gain_ * noise_ / curvature * column_rad * circle.radius_px;
+  const HitLanes excess_px = column_px_ * (here.abs() / curvature - sharp * sharp).max(0.0).sqrt();
+  const HitLanes broad_px = params_.broad_share * excess_px;
+  const HitLanes sigma_px = (noise_px * noise_px + model_px * model_px + broad_px * broad_px).sqrt();
+  const HitLanes azimuth = (column + between) * column_rad;
+  for (int lane = 0; lane < static_cast<int>(columns.size()); ++lane)
+    hits.push_back({.azimuth = static_cast<float>(azimuth[lane]),
+                    .sigma = static_cast<float>(sigma_px[lane] / circle.radius_px),
+                    .step = static_cast<float>(here[lane] / gain_),
+                    .row = static_cast<std::int16_t>(row),
+                    .saturated = saturated[lane]});
 }
 
 }  // namespace credo::perception

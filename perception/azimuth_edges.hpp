@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "perception/annulus_table.hpp"
@@ -61,8 +62,11 @@ class AzimuthEdgeFilter {
 
   void filter_row(const AnnulusTable& table, const std::uint8_t* pixels, int row);
   void measure_widths(int columns, int least);
-  void add_hit(const AnnulusTable& table, int row, int column, std::vector<EdgeHit>& hits) const;
-  void separate(const AnnulusRow& circle, std::vector<EdgeHit>& hits, std::size_t first) const;
+  [[nodiscard]] bool usable(const AnnulusTable& table, int row, int column) const;
+  [[nodiscard]] bool saturates(int column) const;
+  void add_hits(const AnnulusRow& circle, int row, std::span<const int> columns, std::vector<EdgeHit>& hits) const;
+  void separate(const AnnulusRow& circle, std::span<EdgeHit> hits);
+  void part(std::span<const int> pairs, double width, const EdgeHit* hits);
 
   EdgeFilterParams params_;
   std::array<std::int16_t, kReach> taps_{};
@@ -78,6 +82,9 @@ class AzimuthEdgeFilter {
   bool row_saturates_ = false;          ///< the row that is looked at
   std::vector<std::uint8_t> marks_;     ///< by column: whether there is an extremum
   std::vector<float> widths_;           ///< scratch of measure()
+  std::vector<int> columns_;            ///< of the row's hits
+  std::vector<int> pairs_;              ///< hits of the row whose next one is near
+  std::vector<double> shifts_;          ///< of the row's hits by their neighbours [rad]
   std::vector<std::int16_t> response_;  ///< kMargin + columns + kMargin
 };
 

@@ -16,13 +16,14 @@ using geometry::kTurn;
 
 }  // namespace
 
-LineVotes::LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& camera, double bin_rad)
+LineVotes::LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& camera, double bin_rad, double horizon_px)
     : bins_(std::max(16, static_cast<int>(std::lround(kTurn / bin_rad)))) {
   for (int bin = 0; bin < bins_; ++bin) {
     const double azimuth = (bin + 0.5) * kTurn / bins_;
     directions_.emplace_back(std::cos(azimuth), std::sin(azimuth));
     in_image_.push_back(camera.image_direction(azimuth - camera.T_base_camera.theta));
   }
+  for (const AnnulusRow& row : annulus.rows()) levers_.push_back(1.0 / row.radius_px - 1.0 / horizon_px);
   begin_.resize(2 * bins_ + 1);
   begin_of_row_.resize(annulus.rows().size() + 1);
   count_usable_rows(annulus);
@@ -114,8 +115,8 @@ void LineVotes::sort_near_by_row(const std::vector<EdgeHit>& hits) {
   for (const std::int32_t index : near_) by_row_[begin_of_row_[hits[index].row]++] = index;
 }
 
-double LineVotes::gather(const std::vector<EdgeHit>& hits, const AnnulusTable& annulus, const LinePeak& peak,
-                         double window_rad, double horizon_px, RadialPoints& points) {
+double LineVotes::gather(const std::vector<EdgeHit>& hits, const LinePeak& peak, double window_rad,
+                         RadialPoints& points) {
   points.clear();
   near_.clear();
   middle_.clear();
@@ -130,7 +131,7 @@ double LineVotes::gather(const std::vector<EdgeHit>& hits, const AnnulusTable& a
     const EdgeHit& hit = hits[index];
     points.push_back({.azimuth = geometry::wrap_angle(hit.azimuth - peak.azimuth),
                       .sigma = hit.sigma,
-                      .lever = 1.0 / annulus.rows()[hit.row].radius_px - 1.0 / horizon_px,
+                      .lever = levers_[hit.row],
                       .row = hit.row,
                       .step = std::abs(hit.step)});
   }
@@ -139,12 +140,12 @@ double LineVotes::gather(const std::vector<EdgeHit>& hits, const AnnulusTable& a
   return *median;
 }
 
-void LineVotes::use_up(const std::vector<EdgeHit>& hits, const AnnulusTable& annulus, const LinePeak& peak,
-                       const RadialFit& fit, double window_rad, double own_rad, double horizon_px) {
+void LineVotes::use_up(const std::vector<EdgeHit>& hits, const LinePeak& peak, const RadialFit& fit, double window_rad,
+                       double own_rad) {
   for_each_near(peak, window_rad + own_rad, [&](std::int32_t index, int) {
     const EdgeHit& hit = hits[index];
-    const double lever = 1.0 / annulus.rows()[hit.row].radius_px - 1.0 / horizon_px;
-    const double distance = geometry::wrap_angle(hit.azimuth - peak.azimuth) - fit.azimuth - fit.slope * lever;
+    const double distance =
+        geometry::wrap_angle(hit.azimuth - peak.azimuth) - fit.azimuth - fit.slope * levers_[hit.row];
     if (std::abs(distance) <= own_rad + 3.0 * hit.sigma) used_[index] = 1;
   });
 }

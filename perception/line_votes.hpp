@@ -23,7 +23,8 @@ struct LinePeak {
 /// Hits by azimuth and sign: a histogram over the azimuth that keeps the hits of each bin together.
 class LineVotes {
  public:
-  LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& camera, double bin_rad);
+  /// \param horizon_px  radius of the ring where a line's azimuth is taken
+  LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& camera, double bin_rad, double horizon_px);
 
   /// Memory for so many hits, and as many lines as they can be expected to make.
   void reserve(std::size_t hits);
@@ -41,12 +42,11 @@ class LineVotes {
 
   /// The unused hits near a peak as points relative to its azimuth, by row.
   /// \returns the median of those in the three bins.
-  double gather(const std::vector<EdgeHit>& hits, const AnnulusTable& annulus, const LinePeak& peak, double window_rad,
-                double horizon_px, RadialPoints& points);
+  double gather(const std::vector<EdgeHit>& hits, const LinePeak& peak, double window_rad, RadialPoints& points);
 
   /// Takes the hits of a fitted line out of the game.
-  void use_up(const std::vector<EdgeHit>& hits, const AnnulusTable& annulus, const LinePeak& peak, const RadialFit& fit,
-              double window_rad, double own_rad, double horizon_px);
+  void use_up(const std::vector<EdgeHit>& hits, const LinePeak& peak, const RadialFit& fit, double window_rad,
+              double own_rad);
 
   /// Circles on which a line at this azimuth can be seen; at least 1.
   [[nodiscard]] double usable_rows(double azimuth) const;
@@ -68,6 +68,7 @@ class LineVotes {
   std::vector<Eigen::Vector2d> in_image_;    ///< by bin
   std::vector<Eigen::Vector2d> directions_;  ///< by bin
   std::vector<int> usable_rows_;             ///< by bin
+  std::vector<double> levers_;               ///< RadialPoint::lever by row
   std::vector<std::int32_t> slots_;          ///< by hit
   std::vector<int> begin_;                   ///< by slot, one more than there are: first of its hits in order_
   std::vector<std::int32_t> order_;          ///< indices of hits, by slot, then row

@@ -51,15 +51,20 @@ Normal accumulate(std::span<const Block> blocks, const RadialFit& fit, double li
 /// Of the residuals, in expected standard deviations, by the median of some of them: up to half of the points may be
 /// outliers. >= 1.
 double spread(const RadialPoints& points, const RadialFit& fit) {
+  constexpr double kOfMedian = 1.4826;  // of a normal distribution
   constexpr std::size_t kMost = 32;
   std::array<double, kMost> magnitudes{};
   const std::size_t step = 1 + (points.size() - 1) / kMost;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < points.size(); i += step)
-    magnitudes[count++] = std::abs(residual(points.blocks(), i, fit));
+  std::size_t count = 0, expected = 0;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    const double magnitude = kOfMedian * std::abs(residual(points.blocks(), i, fit));
+    expected += magnitude <= 1.0 ? 1 : 0;
+    magnitudes[count++] = magnitude;
+  }
+  if (expected > count / 2) return 1.0;  // whatever the median is
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(magnitudes.begin(), middle, magnitudes.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::max(1.0, 1.4826 * *middle);
+  return std::max(1.0, *middle);
 }
 
 void count_support(const RadialPoints& points, const RadialFitParams& params, RadialFit& fit) {

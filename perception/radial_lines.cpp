@@ -94,7 +94,7 @@ RadialLineExtractor::State::State(const sensors::OmniCamera& camera_in, const Ra
       gray(camera, camera.center_px, gray_circles(camera, params.gray), params.column_px),
       filter(params.edges, params.column_px, annulus.max_columns()),
       struts(camera, camera.center_px, params.column_px, params.struts),
-      votes(annulus, camera, params.bin_rad),
+      votes(annulus, camera, params.bin_rad, horizon_px),
       sigma_slope(0.0),
       scratch(static_cast<std::size_t>(std::max(annulus.max_columns(), gray.max_columns()))) {
   const std::size_t most_hits = annulus.samples() / kColumnsPerHit;
@@ -150,7 +150,7 @@ void RadialLineExtractor::State::correct_hits() {
 }
 
 void RadialLineExtractor::State::fit_peak(const LinePeak& peak, std::vector<RadialLine>& lines) {
-  const double start = votes.gather(hits, annulus, peak, params.window_rad, horizon_px, points);
+  const double start = votes.gather(hits, peak, params.window_rad, points);
   if (points.empty()) return;
   RadialFit fit = fit_radial_line(points, start, sigma_slope, params.fit);
   const double steepest =
@@ -171,7 +171,7 @@ void RadialLineExtractor::State::fit_peak(const LinePeak& peak, std::vector<Radi
   const double own_share = 1.0 - std::pow(fit.sigma_slope / (params.fit.error_inflation * fit.scale * sigma_slope), 2);
   if (own_share > 0.5)
     slopes.push_back({peak.azimuth + fit.azimuth, fit.slope / own_share, fit.sigma_slope / std::sqrt(own_share)});
-  votes.use_up(hits, annulus, peak, fit, params.window_rad, params.own_hits_rad, horizon_px);
+  votes.use_up(hits, peak, fit, params.window_rad, params.own_hits_rad);
 }
 
 void RadialLineExtractor::State::find_lines(std::vector<RadialLine>& lines) {

@@ -33,6 +33,15 @@ struct RimCircle {
   double share = 0.0;     ///< of the directions that agree
 };
 
+/// Places where the grey level falls outwards, a few side by side as the fit takes them.
+struct RimFalls {
+  static constexpr int kLanes = 8;
+  using Lanes = Eigen::Array<double, kLanes, 1>;
+  Lanes cosine = Lanes::Zero();  ///< of the direction
+  Lanes sine = Lanes::Zero();
+  Lanes radius_px = Lanes::Constant(1e9);  ///< too far from any rim to count where there is none
+};
+
 /// Where the mirror axis is in the image: the calibration's centre at first, sharpened by the rim image by image.
 class RimCalibration {
  public:
@@ -49,6 +58,7 @@ class RimCalibration {
 
  private:
   void find_falls(const std::uint8_t* pixels);
+  void add_fall(const Eigen::Vector2d& direction, float radius_px);
   [[nodiscard]] std::optional<RimCircle> fit_circle() const;
 
   RimParams params_;
@@ -60,12 +70,8 @@ class RimCalibration {
   std::vector<AnnulusTable> circles_;  ///< none, or one table of circles about the calibrated centre
   std::vector<Eigen::Vector2d> directions_;
   std::vector<std::int16_t> samples_;  ///< circle by circle
-  struct Fall {
-    int direction;
-    float radius_px;
-    float step;
-  };
-  std::vector<Fall> falls_;  ///< by direction
+  std::vector<RimFalls> falls_;        ///< by direction
+  int fall_count_ = 0;
 };
 
 }  // namespace credo::perception

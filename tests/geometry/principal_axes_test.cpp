@@ -24,6 +24,7 @@ RC_GTEST_PROP(PrincipalAxes, MakeUpTheCovariance, ()) {
   const Eigen::Matrix2d again = axes.largest * along * along.transpose() + axes.smallest * across * across.transpose();
   RC_ASSERT((again - covariance).norm() <= 1e-12 * (1.0 + covariance.norm()));
   RC_ASSERT(axes.largest >= axes.smallest);
+  RC_ASSERT(axes.largest == largest_variance(covariance));
   RC_ASSERT(axes.smallest >= -1e-12 * (1.0 + covariance.norm()));
 }
 

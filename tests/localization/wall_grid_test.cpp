@@ -62,6 +62,7 @@ RC_GTEST_PROP(WallGrid, FindsTheFirstWallOfAll, (unsigned seed)) {
     const double found = grid.first_crossing(origin, direction, farthest);
     const bool right = nearest < farthest ? std::abs(found - nearest) < 1e-6 : std::isinf(found);
     RC_ASSERT(right);
+    RC_ASSERT(grid.any_crossing(origin, direction, farthest) == (nearest < farthest));
   }
 }
 

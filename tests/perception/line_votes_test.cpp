@@ -32,7 +32,7 @@ class Votes : public ::testing::Test {
   explicit Votes(const sensors::OmniCamera& camera = test_camera())
       : camera_(camera),
         annulus_(camera, camera.center_px, evenly_spaced_radii(64.0, 226.0, 2.0), 0.7),
-        votes_(annulus_, camera, kBin_rad) {}
+        votes_(annulus_, camera, kBin_rad, camera.horizon_radius_px) {}
 
   [[nodiscard]] int rows() const { return static_cast<int>(annulus_.rows().size()); }
 
@@ -55,12 +55,12 @@ class Votes : public ::testing::Test {
     return votes_.peaks(share, kChance);
   }
   double gather(const LinePeak& peak) {
-    return votes_.gather(hits_, annulus_, peak, kWindow_rad, camera_.horizon_radius_px, points_);
+    return votes_.gather(hits_, peak, kWindow_rad, points_);
   }
   RadialFit fit(const LinePeak& peak) { return fit_radial_line(points_, gather(peak), 1.0, {}); }
   void use_up(const LinePeak& peak) {
     const RadialFit line = fit(peak);
-    votes_.use_up(hits_, annulus_, peak, line, kWindow_rad, kOwn_rad, camera_.horizon_radius_px);
+    votes_.use_up(hits_, peak, line, kWindow_rad, kOwn_rad);
   }
 
   sensors::OmniCamera camera_;

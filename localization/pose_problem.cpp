@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "localization/pose_problem.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace credo::localization {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// U, upper triangular, with U^T U = positive, so that |U e|^2 = e^T positive e. Cholesky's decomposition in plain
+/// numbers: Eigen's takes seconds to compile for each size. A pivot that is rounded below 0 is 0.
+template <int kRows>
+Eigen::Matrix<double, kRows, kRows> root(const Eigen::Matrix<double, kRows, kRows>& positive) {
+  Eigen::Matrix<double, kRows, kRows> U = Eigen::Matrix<double, kRows, kRows>::Zero();
+  for (int i = 0; i < kRows; ++i) {
+    for (int j = i; j < kRows; ++j) {
+      double rest = positive(i, j);
+      for (int k = 0; k < i; ++k) rest -= U(k, i) * U(k, j);
+      U(i, j) = i == j ? std::sqrt(std::max(0.0, rest)) : rest / U(i, i);
+    }
+  }
+  return U;
+}
+
+/// Squared residual per degree of freedom in standard deviations.
+double normalised_square(const Observation& o, const ResidualCovariance& covariance, const Vector2d& residual) {
+  return residual.dot(covariance.whole().inverse() * residual) / o.dimension();
+}
+
+/// What a step from the prior tells of the landmark's errors p: -(with_landmark)^T P^-1 step, for a pose that the plan
+/// has drawn aside is likely to be drawn aside again.
+ObservationTerm term_of(const Observation& o, const PosePrior& prior) {
+  ObservationTerm term;
+  term.fixed = fixed_direction(o);
+  for (std::size_t i = 0; i < plan_count(o); ++i) {
+    const auto [column, derivative] = landmark_by_plan(o, i, term.fixed);
+    term.with_landmark += prior.pose->with_plan[column] * derivative.transpose();
+  }
+  term.landmark_by_step = term.with_landmark.transpose() * prior.information;
+  term.told = term.landmark_by_step * term.with_landmark;
+  return term;
+}
+
+}  // namespace
+
+PoseState::Vector difference(const PoseState::Vector& a, const PoseState::Vector& b) {
+  PoseState::Vector step = a - b;
+  step(PoseState::kTheta) = geometry::wrap_angle(step(PoseState::kTheta));
+  return step;
+}
+
+// One decomposition and one right-hand side at a time, as TinySolver does it: Eigen's general inverse takes long to
+// compile. Scaled to a unit diagonal beforehand, for metres stand beside milliradians.
+PoseState::Matrix inverse(const PoseState::Matrix& positive) {
+  const PoseState::Vector scale = positive.diagonal().cwiseSqrt().cwiseInverse();
+  const PoseState::Matrix scaled = scale.asDiagonal() * positive * scale.asDiagonal();
+  const Eigen::LDLT<PoseState::Matrix> decomposed(scaled);
+  PoseState::Matrix inverted;
+  for (int i = 0; i < PoseState::kSize; ++i) {
+    const PoseState::Vector unit = PoseState::Vector::Unit(i);
+    inverted.col(i) = decomposed.solve(unit);
+  }
+  const PoseState::Matrix unscaled = scale.asDiagonal() * inverted * scale.asDiagonal();
+  return 0.5 * (unscaled + unscaled.transpose());
+}
+
+double PosePrior::step_squared(const PoseState::Vector& x) const {
+  const Vector3d step = difference(x, state).head<3>();
+  return step.dot(pose->covariance().inverse() * step);
+}
+
+PoseProblem::PoseProblem() {
+  constexpr std::size_t kUsualObservations = 256;
+  terms_.reserve(kUsualObservations);
+}
+
+void PoseProblem::take(const CalibratedPose& prior, const Matrix3d& carry, std::span<const Observation> observations) {
+  prior_.pose = &prior;
+  prior_.state = prior.state();
+  prior_.carry = carry;
+  PoseState::Matrix covariance = prior.joint;
+  covariance.block<3, 3>(PoseState::kRangeX, PoseState::kRangeX) += carry;
+  prior_.information = inverse(covariance);
+  observations_ = observations;
+  terms_.clear();
+  for (const Observation& o : observations) terms_.push_back(term_of(o, prior_));
+  linearised_at_.setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+void PoseProblem::linearise(const PoseState::Vector& x) {
+  if (x == linearised_at_) return;
+  linearised_at_ = x;
+  const StateFrame frame(x);
+  for (std::size_t k = 0; k < terms_.size(); ++k)
+    evaluate(observations_[k], terms_[k].fixed, frame, x, terms_[k].residual, &terms_[k].by_state);
+}
+
+void PoseProblem::reweight(const PoseState::Vector& x, double scale, bool bounded) {
+  linearise(x);
+  const StateFrame frame(x);
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    const Observation& o = observations_[k];
+    ObservationTerm& term = terms_[k];
+    term.by_landmark = residual_by_landmark(o, frame);
+    term.covariance = residual_covariance(o, frame, term.by_landmark);
+    term.by_step = term.by_landmark * term.landmark_by_step;
+    const double cauchy = 1.0 / (1.0 + normalised_square(o, term.covariance, term.residual) / scale);
+    term.weight = bounded ? cauchy * cauchy : cauchy;
+    term.whitener = root<2>(term.rest().inverse());
+  }
+}
+
+void PoseProblem::trust_all() {
+  for (ObservationTerm& term : terms_) {
+    term.weight = 1.0;
+    term.whitener = root<2>(term.rest().inverse());
+  }
+}
+
+double PoseProblem::squared_sum(const PoseState::Vector& x) {
+  linearise(x);
+  const PoseState::Vector step = difference(x, prior_.state);
+  double sum = step.dot(prior_.information * step);
+  for (const ObservationTerm& term : terms_)
+    sum += (term.whitener * (term.residual + term.by_step * step)).squaredNorm();
+  return sum;
+}
+
+PoseProblem::Moments PoseProblem::moments_root(const PoseState::Vector& x) {
+  linearise(x);
+  const PoseState::Vector step = difference(x, prior_.state);
+  const PoseState::Vector gradient = prior_.information * step;
+  Moments moments;
+  moments << prior_.information, gradient, gradient.transpose(), step.dot(gradient);
+  Eigen::Matrix<double, 2, PoseState::kSize + 1, Eigen::RowMajor> rows;  // [J e]
+  for (const ObservationTerm& term : terms_) {
+    rows << term.by_state + term.by_step, term.residual + term.by_step * step;
+    rows = term.whitener * rows;
+    moments.noalias() += rows.transpose() * rows;
+  }
+  return root<PoseState::kSize + 1>(moments);
+}
+
+double PoseProblem::bounded_cost(const PoseState::Vector& x, double scale) const {
+  const StateFrame frame(x);
+  double cost = prior_.step_squared(x);
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    const Observation& o = observations_[k];
+    Vector2d residual;
+    evaluate(o, terms_[k].fixed, frame, x, residual, nullptr);
+    const double squared = normalised_square(o, residual_covariance(o, frame), residual);
+    cost += o.dimension() * scale * squared / (scale + squared);
+  }
+  return cost;
+}
+
+}  // namespace credo::localization
