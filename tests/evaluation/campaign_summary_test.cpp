@@ -81,8 +81,8 @@ TEST(CampaignSummary, WithoutProtectionLevelsNothingIsAvailable) {
 
 TEST(CampaignSummary, CountsWrongMatchesAmongAll) {
   CampaignRow a = row(0.0), b = row(0.0);
-  a.matches = {.matches = 10, .wrong = 1};
-  b.matches = {.matches = 30, .wrong = 0};
+  a.matches.classes = {{{.matches = 3, .wrong = 1}, {.matches = 7, .wrong = 0}}};
+  b.matches.classes.back() = {.matches = 30, .wrong = 0};
   EXPECT_NEAR(value_of({run_of(1, {a}), run_of(2, {b})}, "wrong_matches"), 1.0 / 40, 1e-12);
 }
 
