@@ -17,6 +17,7 @@ namespace {
 
 using evaluation::CampaignSummary;
 using evaluation::GroupSummary;
+using evaluation::MatchCounts;
 using evaluation::Measure;
 using nlohmann::ordered_json;
 
@@ -77,6 +78,34 @@ std::string measure_lines(const GroupSummary& group) {
   return text;
 }
 
+std::string match_counts_line(const GroupSummary& group) {
+  std::string text = fmt::format("  {:<18}", group.name);
+  for (const MatchCounts& counts : group.matches.classes)
+    text += fmt::format("  {:>16}", fmt::format("{} / {}", counts.wrong, counts.matches));
+  return text + "\n";
+}
+
+/// By the classes in which the integrity monitor has its fault priors: over everything with intervals, then the counts
+/// by degradation.
+std::string match_tables(const CampaignSummary& summary) {
+  std::string text = "\nwrong matches by the belief of their track, all runs together, with 95 % intervals\n";
+  text +=
+      fmt::format("  {:<18}  {:>9}  {:>7}  {:>9}  [Clopper and Pearson]\n", "class", "matches", "wrong", "frequency");
+  std::string head = fmt::format("  {:<18}", "degradation");
+  for (std::size_t i = 0; i < localization::kFaultClasses; ++i) {
+    const MatchCounts& counts = summary.groups.back().matches.classes[i];
+    const evaluation::Bounds interval = counts.wrong_among_all().interval();
+    text += fmt::format("  {:<18}  {:>9}  {:>7}  {:>9}  [{:.2g}, {:.2g}]\n", evaluation::fault_class_name(i),
+                        counts.matches, counts.wrong,
+                        counts.matches > 0 ? fmt::format("{:.2g}", counts.wrong_share()) : "-", interval.lower,
+                        interval.upper);
+    head += fmt::format("  {:>16}", evaluation::fault_class_name(i));
+  }
+  text += "\nthe same by degradation: wrong / matches\n" + head + "\n";
+  for (const GroupSummary& group : summary.groups) text += match_counts_line(group);
+  return text;
+}
+
 std::string worst_lines(const CampaignSummary& summary, perception::Method method) {
   std::string text = "\nworst runs (misleading, confidently wrong, lost acquisitions; largest errors)\n";
   for (const evaluation::RunRemark& r : summary.worst)
@@ -84,6 +113,17 @@ std::string worst_lines(const CampaignSummary& summary, perception::Method metho
                         r.confidently_wrong, r.lost, 100.0 * r.max_position_m, geometry::to_degrees(r.max_heading_rad),
                         replay_command(r.key, method));
   return text;
+}
+
+ordered_json match_json(const MatchCounts& counts) {
+  ordered_json json{
+      {"count", counts.matches}, {"wrong", counts.wrong}, {"share", nullptr}, {"low", nullptr}, {"high", nullptr}};
+  if (counts.matches == 0) return json;
+  const evaluation::Bounds interval = counts.wrong_among_all().interval();
+  json["share"] = counts.wrong_share();
+  json["low"] = interval.lower;
+  json["high"] = interval.upper;
+  return json;
 }
 
 ordered_json group_json(const GroupSummary& group) {
@@ -100,6 +140,8 @@ ordered_json group_json(const GroupSummary& group) {
     entry["low"] = m.estimate->low;
     entry["high"] = m.estimate->high;
   }
+  for (std::size_t i = 0; i < localization::kFaultClasses; ++i)
+    json["matches"][evaluation::fault_class_name(i)] = match_json(group.matches.classes[i]);
   return json;
 }
 
@@ -121,7 +163,9 @@ std::string to_text(const CampaignSummary& summary, perception::Method method,
   const GroupSummary& all = summary.groups.back();
   std::string text = fmt::format("{} of {} runs are finished, {} of them refused; errors not aligned\n\n",
                                  all.runs + all.refused, summary.runs_wanted, all.refused);
-  text += degradation_table(summary, milliseconds) + measure_lines(all) + worst_lines(summary, method);
+  text += degradation_table(summary, milliseconds) + measure_lines(all);
+  if (method == perception::Method::kDefault) text += match_tables(summary);  // the paper's has no such beliefs
+  text += worst_lines(summary, method);
   if (!summary.refused.empty()) text += "\nrefused\n";
   for (const evaluation::CampaignRun& run : summary.refused)
     text += fmt::format("  {:<36} {}\n", name_of(run.key), run.refused);

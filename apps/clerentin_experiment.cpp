@@ -33,8 +33,9 @@ ReproducedDrive localize(const evaluation::PlayedDrive& played, Method method) {
     const localization::Localization fix = localizer.update(scene, acquisition.motion);
     const std::optional<geometry::Pose2> truth = evaluation::truth_at(played.dataset.truth, fix.time);
     drive.see(scene);
-    drive.matches += evaluation::check_matches(scene, localizer.observations(), localizer.solution(), localizer.map(),
-                                               truth.value());
+    drive.matches += evaluation::check_matches(scene, localizer.observations(), localizer.solution(),
+                                               localizer.landmark_beliefs(), localizer.map(), truth.value())
+                         .total();
     drive.history.push_back({.localization = fix,
                              .tracks = results::sample(localizer.tracks()),
                              .mean_conflict = scene.mean_conflict,

@@ -48,8 +48,9 @@ Outcome run(const datasets::Dataset& dataset, const PipelineParams& params,
     outcome.without_scan += !header.rig.range_finders.empty() && !scene.range_finder_seen ? 1 : 0;
     const auto truth = evaluation::truth_at(dataset.truth, fix.time);
     if (truth && fix.status != localization::Status::kInitializing) {
-      outcome.matches +=
-          evaluation::check_matches(scene, localizer.observations(), localizer.solution(), localizer.map(), *truth);
+      outcome.matches += evaluation::check_matches(scene, localizer.observations(), localizer.solution(),
+                                                   localizer.landmark_beliefs(), localizer.map(), *truth)
+                             .total();
     }
     outcome.history.push_back({.localization = fix,
                                .tracks = results::sample(localizer.tracks()),

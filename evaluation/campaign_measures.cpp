@@ -143,8 +143,8 @@ void add_integrity(const Group& group, const SummaryParams& params, Measures& me
                  });
   measures.ratio(
       {"wrong_matches", "", "of the matches that poses rest on"}, group.rows,
-      [](const CampaignRow& row) { return static_cast<double>(row.matches.wrong); },
-      [](const CampaignRow& row) { return static_cast<double>(row.matches.matches); });
+      [](const CampaignRow& row) { return static_cast<double>(row.matches.total().wrong); },
+      [](const CampaignRow& row) { return static_cast<double>(row.matches.total().matches); });
   const ClusteredValues beliefs = values_of(
       group.absolute, [](const CampaignRow& row) { return row.sample.localization.belief.pignistic(); },
       [&](const CampaignRow& row) { return !is_lost(row.sample, w); });

@@ -109,7 +109,8 @@ Played play(const sim::Simulation& simulation, const RunParams& params, const Ru
                          row.sample.localization = std::move(fix);
                          if (row.sample.placed())
                            row.matches = check_matches(scene, localizer.observations(), localizer.solution(),
-                                                       localizer.map(), row.sample.truth);
+                                                       localizer.landmark_beliefs(), localizer.map(), row.sample.truth,
+                                                       {.classes = params.localizer.integrity});
                          played.rows.push_back(std::move(row));
                        },
                        {.progress = watch.progress});

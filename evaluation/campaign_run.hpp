@@ -26,9 +26,9 @@ inline constexpr std::string_view kKidnapped = "kidnapped";
 
 /// One acquisition of a run, with what is truly so.
 struct CampaignRow {
-  Sample sample;             ///< its localization is without hypotheses
-  double travelled_m = 0.0;  ///< driven since the start; being carried does not count
-  MatchCounts matches;       ///< that the pose rests on
+  Sample sample;               ///< its localization is without hypotheses
+  double travelled_m = 0.0;    ///< driven since the start; being carried does not count
+  ClassedMatchCounts matches;  ///< that the pose rests on
   std::vector<std::string> events = {};
   /// Whether the range finder can tell this place from every other: where the robot has to find out where it is.
   std::optional<bool> decidable = std::nullopt;

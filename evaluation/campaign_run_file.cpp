@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -16,10 +15,20 @@
 namespace credo::evaluation {
 namespace {
 
-constexpr std::array<std::string_view, 11> kColumns{
-    "true_x [m]",    "true_y [m]", "true_theta [rad]", "position_error [m]", "heading_error [rad]",
-    "travelled [m]", "matches",    "wrong_matches",    "degraded",           "decidable",
-    "events"};
+/// The columns after those of localization.csv; two for each class of matches.
+const std::vector<std::string>& columns() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list{"true_x [m]",         "true_y [m]",          "true_theta [rad]",
+                                  "position_error [m]", "heading_error [rad]", "travelled [m]"};
+    for (std::size_t i = 0; i < localization::kFaultClasses; ++i) {
+      list.push_back(fault_class_name(i));
+      list.push_back("wrong_" + fault_class_name(i));
+    }
+    list.insert(list.end(), {"degraded", "decidable", "events"});
+    return list;
+  }();
+  return names;
+}
 constexpr std::string_view kRefused = "# refused: ";
 
 std::string decidable_text(const std::optional<bool>& decidable) { return decidable ? *decidable ? "1" : "0" : ""; }
@@ -27,13 +36,16 @@ std::string decidable_text(const std::optional<bool>& decidable) { return decida
 std::string line_of(const CampaignRow& row) {
   const Sample& sample = row.sample;
   const geometry::Pose2& truth = sample.truth;
-  return results::to_line(results::ExtendedRow{
+  results::ExtendedRow line{
       .row = {sample.localization},
       .more = {fmt::format("{:.6f}", truth.x), fmt::format("{:.6f}", truth.y), fmt::format("{:.9f}", truth.theta),
                fmt::format("{:.6f}", sample.position_m()), fmt::format("{:.9f}", sample.heading_rad()),
-               fmt::format("{:.3f}", row.travelled_m), std::to_string(row.matches.matches),
-               std::to_string(row.matches.wrong), sample.degraded ? "1" : "0", decidable_text(row.decidable),
-               fmt::format("{}", fmt::join(row.events, ";"))}});
+               fmt::format("{:.3f}", row.travelled_m)}};
+  for (const MatchCounts& counts : row.matches.classes)
+    line.more.insert(line.more.end(), {std::to_string(counts.matches), std::to_string(counts.wrong)});
+  line.more.insert(line.more.end(), {sample.degraded ? "1" : "0", decidable_text(row.decidable),
+                                     fmt::format("{}", fmt::join(row.events, ";"))});
+  return results::to_line(line);
 }
 
 /// Turns the texts of the columns into numbers.
@@ -49,7 +61,7 @@ class ColumnReader {
     if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(static_cast<double>(value)))
       throw datasets::FormatError(file_, 0,
                                   fmt::format("at {} ns: expected a number in column '{}', found '{}'",
-                                              row_.row.localization.time, kColumns[next_ - 1], text));
+                                              row_.row.localization.time, columns()[next_ - 1], text));
     return value;
   }
   bool flag() { return number<int>() != 0; }
@@ -81,8 +93,8 @@ CampaignRow row_of(const std::filesystem::path& file, const results::ExtendedRow
   (void)read.number();  // the errors follow from the poses
   (void)read.number();
   row.travelled_m = read.number();
-  row.matches.matches = read.number<long>();
-  row.matches.wrong = read.number<long>();
+  for (MatchCounts& counts : row.matches.classes)
+    counts = {.matches = read.number<long>(), .wrong = read.number<long>()};
   row.sample.degraded = read.flag();
   row.decidable = read.optional_flag();
   row.events = read.words();
@@ -100,7 +112,7 @@ std::string refusal_in(const std::string& text) {
 }  // namespace
 
 void write_run(const std::filesystem::path& file, const CampaignRun& run) {
-  std::string text = results::extended_header(kColumns);
+  std::string text = results::extended_header(columns());
   if (!run.refused.empty()) text.append(kRefused).append(run.refused).append("\n");
   for (const CampaignRow& row : run.rows) text += line_of(row);
   datasets::write_file_whole(file, text);
@@ -108,7 +120,7 @@ void write_run(const std::filesystem::path& file, const CampaignRun& run) {
 
 CampaignRun read_run(const std::filesystem::path& file, const RunKey& key) {
   CampaignRun run{.key = key, .rows = {}, .refused = refusal_in(datasets::read_text_file(file))};
-  for (const results::ExtendedRow& row : results::read_extended_localization(file, kColumns))
+  for (const results::ExtendedRow& row : results::read_extended_localization(file, columns()))
     run.rows.push_back(row_of(file, row));
   return run;
 }

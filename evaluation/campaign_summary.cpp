@@ -56,7 +56,10 @@ GroupSummary summarise_group(std::string name, const std::string& wanted, std::s
     if (run.rows.empty()) continue;
     members.push_back(&run);
     group.acquisitions += static_cast<long>(run.rows.size());
-    for (const CampaignRow& row : run.rows) group.misleading += is_misleading(row.sample, params.words) ? 1 : 0;
+    for (const CampaignRow& row : run.rows) {
+      group.misleading += is_misleading(row.sample, params.words) ? 1 : 0;
+      group.matches += row.matches;
+    }
   }
   group.measures = measures_of(members, params);
   return group;
@@ -64,6 +67,13 @@ GroupSummary summarise_group(std::string name, const std::string& wanted, std::s
 
 /// Empty where there is no number.
 std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.6g}", value); }
+
+std::string cells(const MatchCounts& counts) {
+  const std::string text = fmt::format(",{},{}", counts.matches, counts.wrong);
+  if (counts.matches == 0) return text + ",,,";
+  const Bounds interval = counts.wrong_among_all().interval();
+  return text + fmt::format(",{},{},{}", cell(counts.wrong_share()), cell(interval.lower), cell(interval.upper));
+}
 
 }  // namespace
 
@@ -90,12 +100,15 @@ std::string to_csv(const CampaignSummary& summary) {
   std::string text = "#group,runs,refused,acquisitions";
   for (const Measure& m : summary.groups.front().measures)
     text += fmt::format(",{0}{1},{0}_low,{0}_high", m.name, m.unit.empty() ? "" : " [" + m.unit + "]");
+  for (std::size_t i = 0; i < localization::kFaultClasses; ++i)
+    text += fmt::format(",{0},wrong_{0},wrong_{0}_share,wrong_{0}_low,wrong_{0}_high", fault_class_name(i));
   for (const GroupSummary& group : summary.groups) {
     text += fmt::format("\n{},{},{},{}", group.name, group.runs, group.refused, group.acquisitions);
     for (const Measure& m : group.measures)
       text += m.estimate
                   ? fmt::format(",{},{},{}", cell(m.estimate->value), cell(m.estimate->low), cell(m.estimate->high))
                   : std::string(",,,");
+    for (const MatchCounts& counts : group.matches.classes) text += cells(counts);
   }
   return text + "\n";
 }

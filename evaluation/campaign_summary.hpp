@@ -38,7 +38,8 @@ struct GroupSummary {
   int runs = 0;
   int refused = 0;  ///< whose world could not be made
   long acquisitions = 0;
-  long misleading = 0;  ///< acquisitions
+  long misleading = 0;         ///< acquisitions
+  ClassedMatchCounts matches;  ///< that poses rest on: what the fault priors of the integrity monitor are measured by
   std::vector<Measure> measures;
 
   /// By its name. Precondition: there is one.
@@ -68,7 +69,8 @@ struct CampaignSummary {
 [[nodiscard]] CampaignSummary summarise(const CampaignSpec& spec, std::span<const CampaignRun> runs,
                                         const SummaryParams& params = {});
 
-/// summary.csv: a row for each group, three columns for each measure: its value and the ends of its interval.
+/// summary.csv: a row for each group, three columns for each measure: its value and the ends of its interval; then five
+/// for each class of matches: how many, wrong ones, their share and the ends of its interval (Clopper and Pearson).
 [[nodiscard]] std::string to_csv(const CampaignSummary& summary);
 
 }  // namespace credo::evaluation

@@ -3,7 +3,10 @@
 
 #include "evaluation/match_check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -54,16 +57,38 @@ bool is_wrong_match(const perception::Primitive& seen, const Eigen::Vector2d& ca
                                : wrong_point(seen, camera_origin, map.point(landmark), plan, T_map_base, params);
 }
 
-MatchCounts check_matches(const perception::Scene& scene, std::span<const localization::Observation> observations,
-                          const localization::PoseSolution& solution, const localization::LandmarkMap& map,
-                          const geometry::Pose2& T_map_base, const MatchCheckParams& params) {
-  MatchCounts counts;
+MatchCounts ClassedMatchCounts::total() const {
+  MatchCounts sum;
+  for (const MatchCounts& counts : classes) sum += counts;
+  return sum;
+}
+
+ClassedMatchCounts& ClassedMatchCounts::operator+=(const ClassedMatchCounts& other) {
+  for (std::size_t i = 0; i < classes.size(); ++i) classes[i] += other.classes[i];
+  return *this;
+}
+
+std::string fault_class_name(std::size_t fault_class, const localization::IntegrityParams& params) {
+  assert(fault_class < localization::kFaultClasses);
+  if (fault_class == localization::kWallFaultClass) return "walls";
+  return fmt::format("points_from_{:g}", params.point_faults[fault_class].from_belief);
+}
+
+ClassedMatchCounts check_matches(const perception::Scene& scene,
+                                 std::span<const localization::Observation> observations,
+                                 const localization::PoseSolution& solution, std::span<const double> beliefs,
+                                 const localization::LandmarkMap& map, const geometry::Pose2& T_map_base,
+                                 const MatchCheckParams& params) {
+  assert(beliefs.empty() || beliefs.size() == observations.size());
+  ClassedMatchCounts counts;
   for (std::size_t k = 0; k < observations.size(); ++k) {
-    if (solution.outlier[k] || observations[k].landmark == tracking::kNoLandmark) continue;
-    const perception::Primitive& seen = scene.primitives[static_cast<std::size_t>(observations[k].primitive)];
-    ++counts.matches;
-    counts.wrong +=
-        is_wrong_match(seen, scene.camera_origin, map, observations[k].landmark, T_map_base, params) ? 1 : 0;
+    const localization::Observation& o = observations[k];
+    if (solution.outlier[k] || o.landmark == tracking::kNoLandmark) continue;
+    const perception::Primitive& seen = scene.primitives[static_cast<std::size_t>(o.primitive)];
+    const bool wrong = is_wrong_match(seen, scene.camera_origin, map, o.landmark, T_map_base, params);
+    const double belief = beliefs.empty() ? 0.0 : beliefs[k];
+    counts.classes[localization::fault_class(map.is_wall(o.landmark), belief, params.classes)] +=
+        {.matches = 1, .wrong = wrong ? 1 : 0};
   }
   return counts;
 }

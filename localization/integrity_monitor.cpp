@@ -53,11 +53,8 @@ void leave_out(const auto& told, StateMatrix& information, StateVector& gradient
 }
 
 ProbabilityInterval fault_of(bool wall, double belief, const IntegrityParams& params) {
-  if (wall) return params.wall_fault;
-  ProbabilityInterval fault = params.point_faults.front().fault;
-  for (const FaultPrior& prior : params.point_faults)
-    if (belief >= prior.from_belief) fault = prior.fault;
-  return fault;
+  const std::size_t of = fault_class(wall, belief, params);
+  return of == kWallFaultClass ? params.wall_fault : params.point_faults[of].fault;
 }
 
 /// Probability of at least so many faults that come independently of each other: Poisson's, and the first term of its
@@ -72,6 +69,13 @@ ProbabilityInterval both(const ProbabilityInterval& a, const ProbabilityInterval
 }
 
 }  // namespace
+
+std::size_t fault_class(bool wall, double belief, const IntegrityParams& params) {
+  if (wall) return kWallFaultClass;
+  std::size_t of = 0;
+  while (of + 1 < params.point_faults.size() && belief >= params.point_faults[of + 1].from_belief) ++of;
+  return of;
+}
 
 IntegrityMonitor::IntegrityMonitor(const IntegrityParams& params, std::vector<WallFootprint> walls)
     : params_(params), walls_(std::move(walls)) {

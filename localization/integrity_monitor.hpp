@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "localization/localization.hpp"
@@ -34,6 +36,13 @@ struct IntegrityParams {
   double slip_m = 0.5;                               ///< this, 1-sigma,
   double slip_rad = 0.1;                             ///< and this
 };
+
+/// Matches are classed by how often they are wrong: points as IntegrityParams::point_faults has them, then walls.
+inline constexpr std::size_t kFaultClasses = std::tuple_size_v<decltype(IntegrityParams::point_faults)> + 1;
+inline constexpr std::size_t kWallFaultClass = kFaultClasses - 1;
+
+/// \param belief  BetP(YES) that the track of the match exists; of no matter for a wall
+[[nodiscard]] std::size_t fault_class(bool wall, double belief, const IntegrityParams& params = {});
 
 /// A pose elsewhere that would explain the readings: everything matched may be shifted by a module that repeats.
 struct Alias {

@@ -91,7 +91,7 @@ struct Localizer::State {
   bool found_elsewhere = false;  ///< in this acquisition: the pose is another one than was thought
   PoseHistory history;
   MotionPredictor predictor;
-  std::vector<double> landmark_beliefs;  ///< by observation, a workspace
+  std::vector<double> landmark_beliefs;  ///< by observation, as the monitor took them
 
   [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
   [[nodiscard]] PoseEstimate predict(const Scene& scene, const std::optional<PoseEstimate>& motion);
@@ -459,6 +459,7 @@ evidence::Believed<PoseEstimate> Localizer::pose_at(Timestamp time) const {
 const std::vector<Track>& Localizer::tracks() const { return state_->tracker.tracks(); }
 const std::vector<Observation>& Localizer::observations() const { return state_->fit.observations; }
 const PoseSolution& Localizer::solution() const { return state_->fit.solution; }
+const std::vector<double>& Localizer::landmark_beliefs() const { return state_->landmark_beliefs; }
 const LandmarkMap& Localizer::map() const { return state_->map; }
 const LocalizerParams& Localizer::params() const { return state_->params; }
 RigCalibration Localizer::calibration() const { return rig_calibration(state_->rig, state_->fit.pose, state_->mirror); }

@@ -84,6 +84,9 @@ class Localizer {
   /// What the latest pose rests on, and what came of each observation (PoseSolution::outlier).
   [[nodiscard]] const std::vector<Observation>& observations() const;
   [[nodiscard]] const PoseSolution& solution() const;
+  /// Of each of observations(): BetP(YES) that its track exists, as the integrity monitor took it. Empty without a
+  /// monitor: under the paper's method, and before there is a pose in the map.
+  [[nodiscard]] const std::vector<double>& landmark_beliefs() const;
   [[nodiscard]] const LocalizerParams& params() const;
   /// What was learned about the instruments so far; as they came where there is no pose on a plan.
   [[nodiscard]] RigCalibration calibration() const;

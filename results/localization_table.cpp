@@ -202,7 +202,7 @@ std::vector<LocalizationRow> read_localization(const std::filesystem::path& file
 }
 
 std::vector<ExtendedRow> read_extended_localization(const std::filesystem::path& file,
-                                                    std::span<const std::string_view> more) {
+                                                    std::span<const std::string> more) {
   std::vector<ExtendedRow> rows;
   for_each_row(file, extended_header(more), [&](RowReader& read) {
     LocalizationRow row = read_row(read);
@@ -212,9 +212,9 @@ std::vector<ExtendedRow> read_extended_localization(const std::filesystem::path&
   return rows;
 }
 
-std::string extended_header(std::span<const std::string_view> more) {
+std::string extended_header(std::span<const std::string> more) {
   std::string header(kLocalizationHeader.substr(0, kLocalizationHeader.size() - 1));
-  for (const std::string_view column : more) header.append(",").append(column);
+  for (const std::string& column : more) header.append(",").append(column);
   return header + "\n";
 }
 

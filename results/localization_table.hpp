@@ -38,11 +38,11 @@ struct ExtendedRow {
 };
 
 /// The first line of such a table, with the line's end. \param more  names of the other columns
-[[nodiscard]] std::string extended_header(std::span<const std::string_view> more);
+[[nodiscard]] std::string extended_header(std::span<const std::string> more);
 /// A line, with the line's end.
 [[nodiscard]] std::string to_line(const ExtendedRow& row);
 /// Reads such a table. \throws datasets::FormatError as read_localization, and for a row without just these columns
 [[nodiscard]] std::vector<ExtendedRow> read_extended_localization(const std::filesystem::path& file,
-                                                                  std::span<const std::string_view> more);
+                                                                  std::span<const std::string> more);
 
 }  // namespace credo::results

@@ -15,7 +15,9 @@ namespace fs = std::filesystem;
 using credo::tests::Answer;
 using nlohmann::json;
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::Not;
 
 class CampaignCommand : public credo::tests::Command {
  protected:
@@ -36,6 +38,24 @@ TEST_F(CampaignCommand, RunsSumsUpAndSaysHowToReplay) {
   const json summary = json::parse(read("out/summary.json"));
   EXPECT_EQ(summary["runs_finished"], 2);
   EXPECT_LT(summary["groups"][0]["measures"]["mean_position"]["value"], 0.2);
+}
+
+TEST_F(CampaignCommand, MeasuresHowOftenMatchesAreWrong) {
+  const Answer answer = credo("campaign tiny.yaml --out out --seeds 1");
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("wrong matches by the belief of their track"),
+                                ContainsRegex("\n  walls +[1-9][0-9]* +[0-9]+ +[^ ]+  \\[[^ ]+, [^ ]+\\]\n"),
+                                ContainsRegex("\n  nominal +[0-9]+ / [0-9]+ ")));
+  const json matches = json::parse(read("out/summary.json"))["groups"][0]["matches"];
+  ASSERT_TRUE(matches.contains("points_from_0"));
+  const json& walls = matches["walls"];
+  EXPECT_GT(walls["count"], 0);
+  EXPECT_LE(walls["low"], walls["share"]);
+  EXPECT_LE(walls["share"], walls["high"]);
+}
+
+TEST_F(CampaignCommand, OfThePapersMethodNoBeliefsAreCompared) {
+  write("tiny.yaml", read("tiny.yaml") + "method: paper\n");
+  EXPECT_THAT(credo("campaign tiny.yaml --out out --seeds 1").out, Not(HasSubstr("by the belief of their track")));
 }
 
 TEST_F(CampaignCommand, InPiecesGivesTheSameBytesAsAtOnce) {

@@ -81,9 +81,21 @@ TEST(CampaignSummary, WithoutProtectionLevelsNothingIsAvailable) {
 
 TEST(CampaignSummary, CountsWrongMatchesAmongAll) {
   CampaignRow a = row(0.0), b = row(0.0);
-  a.matches = {.matches = 10, .wrong = 1};
-  b.matches = {.matches = 30, .wrong = 0};
+  a.matches.classes = {{{.matches = 3, .wrong = 1}, {.matches = 7, .wrong = 0}}};
+  b.matches.classes.back() = {.matches = 30, .wrong = 0};
   EXPECT_NEAR(value_of({run_of(1, {a}), run_of(2, {b})}, "wrong_matches"), 1.0 / 40, 1e-12);
+}
+
+TEST(CampaignSummary, CountsMatchesByClassInEveryGroup) {
+  CampaignRow a = row(0.0), b = row(0.0);
+  a.matches.classes = {{{.matches = 3, .wrong = 1}, {.matches = 7, .wrong = 0}}};
+  b.matches.classes = {{{.matches = 4, .wrong = 2}}};
+  const CampaignSummary summary = summarise(kSpec, std::vector{run_of(1, {a, a}), run_of(1, {b}, "kidnap")});
+  EXPECT_EQ(summary.groups[0].matches.classes[0], (MatchCounts{.matches = 6, .wrong = 2}));
+  EXPECT_EQ(summary.groups[0].matches.classes[1], (MatchCounts{.matches = 14, .wrong = 0}));
+  EXPECT_EQ(summary.groups[1].matches.classes[0], (MatchCounts{.matches = 4, .wrong = 2}));
+  EXPECT_EQ(summary.groups[2].matches.classes[0], (MatchCounts{.matches = 10, .wrong = 4}));
+  EXPECT_EQ(summary.groups[2].matches.classes.back(), MatchCounts{});
 }
 
 TEST(CampaignSummary, AKidnappedRobotMustNoticeAndRecover) {
@@ -151,10 +163,15 @@ TEST(CampaignSummary, GroupsByDegradationAndListsTheWorstFirst) {
 }
 
 TEST(CampaignSummary, IsATableOfNumbersAndEmptyFields) {
-  const std::string csv = to_csv(summarise(kSpec, std::vector{run_of(1, {row(0.01)})}));
+  CampaignRow only = row(0.01);
+  only.matches.classes.back() = {.matches = 10, .wrong = 1};
+  const std::string csv = to_csv(summarise(kSpec, std::vector{run_of(1, {only})}));
   EXPECT_THAT(csv, StartsWith("#group,runs,refused,acquisitions,mean_position [m],mean_position_low,"));
   EXPECT_THAT(csv, HasSubstr("\nnominal,1,0,1,0.01,,,"));
   EXPECT_THAT(csv, HasSubstr("\nkidnap,0,0,0,,,,"));
+  EXPECT_THAT(csv, HasSubstr(",walls,wrong_walls,wrong_walls_share,wrong_walls_low,wrong_walls_high\n"));
+  EXPECT_THAT(csv, HasSubstr(",0,0,,,,10,1,0.1,0.00252858,0.445016\n"));
+  EXPECT_THAT(csv, HasSubstr(",0,0,,,,0,0,,,\n"));
 }
 
 }  // namespace

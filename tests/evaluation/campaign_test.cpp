@@ -88,7 +88,21 @@ TEST_F(Campaign, FindsOutWhereTheRobotIsAndWhatItWasTold) {
   EXPECT_NEAR(told.rows.back().travelled_m, 2.4, 0.05);
   EXPECT_NEAR(told.rows.back().sample.truth.x, 3.2, 0.01);
   EXPECT_LT(told.rows.back().sample.position_m(), 0.1);
-  EXPECT_GT(told.rows.back().matches.matches, 0);
+  const ClassedMatchCounts& matches = told.rows.back().matches;
+  EXPECT_GT(matches.total().matches, matches.classes.back().matches) << "points, too";
+  EXPECT_GT(matches.classes.back().matches, 0) << "walls, too";
+}
+
+TEST_F(Campaign, RunFilesKeepTheMatchesOfEachClassApart) {
+  CampaignRow row;
+  row.sample.localization.estimate.covariance.setIdentity();
+  row.matches.classes = {{{.matches = 9, .wrong = 3}, {.matches = 8, .wrong = 2}, {.matches = 7, .wrong = 1}, {6, 0}}};
+  const RunKey key{"small", 5, "nominal"};
+  write_run(temporary_ / "run.csv", {.key = key, .rows = {row}, .refused = ""});
+  EXPECT_EQ(read_run(temporary_ / "run.csv", key).rows.front().matches.classes, row.matches.classes);
+  EXPECT_THAT(
+      datasets::read_text_file(temporary_ / "run.csv"),
+      testing::AllOf(HasSubstr(fault_class_name(1) + ",wrong_" + fault_class_name(1)), HasSubstr("9,3,8,2,7,1,6,0")));
 }
 
 TEST_F(Campaign, AWorldThatCannotBeMadeIsARefusedRun) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -99,10 +100,64 @@ TEST(MatchCheck, CountsWhatThePoseRestsOn) {
   }
   localization::PoseSolution solution;
   solution.outlier = {false, false, true};
-  const MatchCounts counts = check_matches(scene, observations, solution, map(), kPose);
+  const MatchCounts counts = check_matches(scene, observations, solution, {}, map(), kPose).total();
   EXPECT_EQ(counts.matches, 2);
   EXPECT_EQ(counts.wrong, 1);
   EXPECT_EQ(counts.wrong_share(), 0.5);
+}
+
+/// A right match, a wrong one and a wall that is the other one, in this order.
+ClassedMatchCounts check_three(std::span<const double> beliefs, const MatchCheckParams& params = {}) {
+  perception::Scene scene;
+  scene.primitives = {corner_seen(0, 0), corner_seen(0.2, 0), corner_seen(0, 0)};
+  scene.primitives[2].line.centroid = kPose.inverse() * Eigen::Vector2d(3.0, 0.0);
+  std::vector<localization::Observation> observations(3);
+  for (int i = 0; i < 3; ++i) {
+    observations[static_cast<std::size_t>(i)].primitive = i;
+    observations[static_cast<std::size_t>(i)].landmark = corner_id();
+  }
+  for (std::size_t i = 0; i < map().walls().size(); ++i)
+    if (std::abs(map().walls()[i].direction.y()) > 0.9) observations[2].landmark = map().wall_id(i);
+  localization::PoseSolution solution;
+  solution.outlier = {false, false, false};
+  return check_matches(scene, observations, solution, beliefs, map(), kPose, params);
+}
+
+TEST(MatchCheck, CountsByTheBeliefOfTheTracksAndWallsApart) {
+  MatchCheckParams params;
+  params.classes.point_faults = {{{0.0, {}}, {0.5, {}}, {0.8, {}}}};
+  using Classes = std::array<MatchCounts, localization::kFaultClasses>;
+  const MatchCounts none, right{.matches = 1, .wrong = 0}, wrong{.matches = 1, .wrong = 1};
+  EXPECT_EQ(check_three(std::array{0.9, 0.2, 0.9}, params).classes, (Classes{wrong, none, right, wrong}));
+  EXPECT_EQ(check_three(std::array{0.7, 0.8, 0.1}, params).classes, (Classes{none, right, wrong, wrong}));
+  EXPECT_EQ(check_three(std::array{0.7, 0.8, 0.1}, params).total(), (MatchCounts{.matches = 3, .wrong = 2}));
+}
+
+TEST(MatchCheck, WithoutBeliefsPointsCountAsTheLeastBelieved) {
+  EXPECT_EQ(check_three({}).classes.front(), (MatchCounts{.matches = 2, .wrong = 1}));
+  EXPECT_EQ(check_three({}).classes.back(), (MatchCounts{.matches = 1, .wrong = 1}));
+}
+
+TEST(MatchCheck, ClassesAreCalledByWhereTheirBeliefBegins) {
+  localization::IntegrityParams params;
+  params.point_faults = {{{0.0, {}}, {0.5, {}}, {0.825, {}}}};
+  EXPECT_EQ(fault_class_name(0, params), "points_from_0");
+  EXPECT_EQ(fault_class_name(2, params), "points_from_0.825");
+  EXPECT_EQ(fault_class_name(localization::kWallFaultClass, params), "walls");
+}
+
+TEST(MatchCheck, SumsClassByClass) {
+  ClassedMatchCounts sum = check_three({});
+  sum += check_three({});
+  EXPECT_EQ(sum.classes.front(), (MatchCounts{.matches = 4, .wrong = 2}));
+  EXPECT_EQ(sum.total(), (MatchCounts{.matches = 6, .wrong = 4}));
+}
+
+TEST(MatchCheck, TheShareOfWrongOnesHasItsInterval) {
+  // Clopper and Pearson for 1 of 10: the roots of the binomial tails at 2.5 %.
+  const Bounds interval = MatchCounts{.matches = 10, .wrong = 1}.wrong_among_all().interval();
+  EXPECT_NEAR(interval.lower, 0.0025, 5e-5);
+  EXPECT_NEAR(interval.upper, 0.4450, 5e-5);
 }
 
 TEST(MatchCheck, WhatIsMatchedToNoLandmarkIsNoMatch) {
@@ -116,7 +171,7 @@ TEST(MatchCheck, WhatIsMatchedToNoLandmarkIsNoMatch) {
   observations[2].landmark = tracking::kNoLandmark;
   localization::PoseSolution solution;
   solution.outlier = {false, false, false};
-  const MatchCounts counts = check_matches(scene, observations, solution, map(), kPose);
+  const MatchCounts counts = check_matches(scene, observations, solution, {}, map(), kPose).total();
   EXPECT_EQ(counts.matches, 2);
   EXPECT_EQ(counts.wrong, 1);
 }

@@ -135,6 +135,18 @@ TEST_F(Monitor, OverRandomFaultsOfOneOrTwoLandmarksTheErrorStaysBelowTheLevel) {
   }
 }
 
+TEST(FaultClass, PointsGoByTheBeliefInTheirTracksAndWallsByNone) {
+  IntegrityParams params;
+  params.point_faults = {{{0.0, {}}, {0.5, {}}, {0.8, {}}}};
+  EXPECT_EQ(fault_class(false, 0.0, params), 0U);
+  EXPECT_EQ(fault_class(false, 0.49, params), 0U);
+  EXPECT_EQ(fault_class(false, 0.5, params), 1U);
+  EXPECT_EQ(fault_class(false, 0.8, params), 2U);
+  EXPECT_EQ(fault_class(false, 1.0, params), 2U);
+  EXPECT_EQ(fault_class(true, 0.0, params), kWallFaultClass);
+  EXPECT_EQ(fault_class(true, 1.0, params), kWallFaultClass);
+}
+
 TEST_F(Monitor, MatchesOfLessBelievedTracksGiveWiderLevels) {
   params_.point_faults = {{{0.0, {1e-3, 1e-2}}, {0.7, {1e-3, 5e-3}}, {0.9, {1e-8, 1e-7}}}};
   const double sure = assess(surroundings(4, 2), 0.95).protection.position_high_m;

@@ -218,6 +218,34 @@ TEST(Localizer, PoseAtAnEarlierTimeLiesBetweenTheFixes) {
   EXPECT_DOUBLE_EQ(half.belief.pignistic(), std::min(a.belief.pignistic(), b.belief.pignistic())) << "the weaker";
 }
 
+TEST(Localizer, TellsTheBeliefOfEachTrackThatTheMonitorTook) {
+  Drive drive(6);
+  Pipeline localize(room(), given({1.0, 1.5, 0.0}));
+  EXPECT_TRUE(localize.localizer.landmark_beliefs().empty());
+  for (int i = 0; i < 3; ++i) {
+    localize(drive.acquire({1.0, 1.5, 0.0}, {}));
+    const std::vector<Observation>& observations = localize.localizer.observations();
+    const std::vector<double>& beliefs = localize.localizer.landmark_beliefs();
+    ASSERT_EQ(beliefs.size(), observations.size());
+    ASSERT_FALSE(beliefs.empty());
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+      if (observations[k].track < 0) continue;
+      const tracking::Track& track = localize.localizer.tracks()[static_cast<std::size_t>(observations[k].track)];
+      EXPECT_EQ(beliefs[k], track.existence.pignistic());
+    }
+  }
+}
+
+TEST(Localizer, WithoutAMonitorItTellsNoBeliefs) {
+  Drive drive(6);
+  Pipeline paper(room(), given({1.0, 1.5, 0.0}), perception::Method::kPaper), relative(room(), std::nullopt);
+  paper(drive.acquire({1.0, 1.5, 0.0}, {}));
+  EXPECT_FALSE(paper.localizer.observations().empty());
+  EXPECT_TRUE(paper.localizer.landmark_beliefs().empty());
+  relative(drive.acquire({1.0, 1.5, 0.0}, {}));
+  EXPECT_TRUE(relative.localizer.landmark_beliefs().empty());
+}
+
 TEST(Localizer, SameInputSameBytes) {
   const auto run = [] {
     Drive drive(9);
