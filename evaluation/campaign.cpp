@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "datasets/csv_table.hpp"
 #include "datasets/text_file.hpp"

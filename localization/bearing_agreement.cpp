@@ -24,8 +24,10 @@ void vote(const std::vector<perception::RadialLine>& lines, double bearing, doub
   for (const double shifted : {bearing - 2.0 * std::numbers::pi, bearing, bearing + 2.0 * std::numbers::pi}) {
     const auto first = std::lower_bound(lines.begin(), lines.end(), shifted - reach,
                                         [](const auto& line, double azimuth) { return line.azimuth < azimuth; });
-    for (auto line = first; line != lines.end() && line->azimuth < shifted + reach; ++line)
-      ++votes[static_cast<std::size_t>(kHalf + std::lround((line->azimuth - shifted) / bin_rad))];
+    for (auto line = first; line != lines.end() && line->azimuth < shifted + reach; ++line) {
+      const long turn = std::lround((line->azimuth - shifted) / bin_rad);
+      if (std::abs(turn) <= kHalf) ++votes[static_cast<std::size_t>(kHalf + turn)];
+    }
   }
 }
 

@@ -77,8 +77,8 @@ std::size_t fault_class(bool wall, double belief, const IntegrityParams& params)
   return of;
 }
 
-IntegrityMonitor::IntegrityMonitor(const IntegrityParams& params, std::vector<WallFootprint> walls)
-    : params_(params), walls_(std::move(walls)) {
+IntegrityMonitor::IntegrityMonitor(std::vector<WallFootprint> walls, const IntegrityParams& params)
+    : walls_(std::move(walls)), params_(params) {
   constexpr std::size_t kUsualLandmarks = 96;
   landmarks_.reserve(kUsualLandmarks);
   by_landmark_.reserve(kUsualLandmarks);
@@ -216,36 +216,34 @@ void IntegrityMonitor::add_instruments(const PoseSolution& solution, const State
       gradient += o.by_state.transpose() * (o.information * o.residual);
     }
     if (!any) continue;
-    StateMatrix without;
-    if (!invert(information, without)) {
-      add_undetermined(params_.instrument_fault);
-      continue;
-    }
-    const Vector3d shift = without.topRows<3>() * gradient;
-    add(params_.instrument_fault, without.topLeftCorner<3, 3>(), shift);
-    integrity.instrument_separation =
-        std::max(integrity.instrument_separation,
-                 normalised(shift, without.topLeftCorner<3, 3>(), covariance.topLeftCorner<3, 3>()));
+    separate_instrument(information, gradient, params_.instrument_fault, covariance, integrity);
   }
 }
 
 /// Wheels that have slipped: the prediction is as unsure as that.
 void IntegrityMonitor::add_prediction(const PoseSolution& solution, const StateMatrix& covariance,
                                       Integrity& integrity) {
-  StateMatrix of_prior = solution.information;
-  StateVector gradient = StateVector::Zero();  // of the prior: at the solution all gradients sum to nothing
-  for (const LinearisedObservation& o : solution.linearised) {
-    of_prior -= o.by_state.transpose() * o.information * o.by_state;
-    gradient -= o.by_state.transpose() * (o.information * o.residual);
-  }
-  StateMatrix prior_covariance, slipped, without;
-  if (!invert(of_prior, prior_covariance)) return;
-  const StateVector step = prior_covariance * gradient;
+  StateMatrix prior_covariance, slipped;
+  if (!invert(solution.prior_information, prior_covariance)) return;
   for (int i = 0; i < 2; ++i) prior_covariance(i, i) += params_.slip_m * params_.slip_m;
   prior_covariance(2, 2) += params_.slip_rad * params_.slip_rad;
-  if (!invert(prior_covariance, slipped) || !invert(solution.information - of_prior + slipped, without)) return;
-  const Vector3d shift = (without * (gradient - slipped * step)).head<3>();
-  add(params_.prediction_fault, without.topLeftCorner<3, 3>(), shift);
+  if (!invert(prior_covariance, slipped)) return;
+  const StateMatrix told = solution.prior_information - slipped;
+  separate_instrument(solution.information - told, told * solution.step, params_.prediction_fault, covariance,
+                      integrity);
+}
+
+/// A hypothesis without an instrument, and how far that is from the pose.
+void IntegrityMonitor::separate_instrument(const StateMatrix& information, const StateVector& gradient,
+                                           const ProbabilityInterval& probability, const StateMatrix& covariance,
+                                           Integrity& integrity) {
+  StateMatrix without;
+  if (!invert(information, without)) {
+    add_undetermined(probability);
+    return;
+  }
+  const Vector3d shift = without.topRows<3>() * gradient;
+  add(probability, without.topLeftCorner<3, 3>(), shift);
   integrity.instrument_separation =
       std::max(integrity.instrument_separation,
                normalised(shift, without.topLeftCorner<3, 3>(), covariance.topLeftCorner<3, 3>()));
@@ -305,7 +303,7 @@ Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const
   integrity.landmarks = static_cast<int>(landmarks_.size());
   const Matrix3d P = solution.pose.covariance();
   hypotheses_.push_back({{1.0, 1.0}, 0.0, 0.0, largest_sigma(P), std::sqrt(P(2, 2))});  // all is right
-  if (StateMatrix covariance; invert(solution.information, covariance)) {
+  if (StateMatrix covariance; !landmarks_.empty() && invert(solution.information, covariance)) {
     add_landmarks(covariance, integrity);
     add_walls(solution);
     add_points(solution);
@@ -322,7 +320,7 @@ Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const
 
   const ProbabilityInterval rest = unmonitored();
   const auto levels = [&](double ProbabilityInterval::*end, double& position_m, double& heading_rad) {
-    const double risk = params_.risk - rest.*end;
+    const double risk = 0.5 * (params_.risk - rest.*end);  // for the position; as much for the heading
     position_m = heading_rad = kInfinity;
     if (!(risk > 0.0)) return;
     using H = FaultHypothesis;

@@ -73,10 +73,10 @@ void judge(Localization& localization, bool camera_seen, bool range_finder_seen,
     because("nothing matches the plan: the pose is predicted");
   else if (localization.matched < 3)
     because("few landmarks");
-  if (belief.no > belief.yes) because("most of what is seen is not in the plan");
+  if (belief.no > belief.yes) because("more speaks against the pose than for it");
   if (localization.unrecognised) because("landmarks that should be in sight are not seen");
   if (localization.off_plan) because("the scan does not lie on the plan");
-  if (localization.contradicted) because("camera and range finder contradict each other");
+  if (localization.contradicted) because("camera, range finder and wheels contradict each other");
   if (localization.doubted && !localization.unrecognised && !localization.off_plan && !localization.contradicted)
     because("just doubted, and not confirmed yet");
   if (localization.elsewhere) because("another pose fits far better");
@@ -85,6 +85,10 @@ void judge(Localization& localization, bool camera_seen, bool range_finder_seen,
   const bool heading_known = std::sqrt(P(2, 2)) <= params.max_heading_sigma_rad;
   if (!position_known) because("position too uncertain");
   if (!heading_known) because("heading too uncertain");
+  const ProtectionLevels& levels = localization.protection;
+  const bool guarded =
+      !(levels.position_high_m > params.max_protection_m) && !(levels.heading_high_rad > params.max_protection_rad);
+  if (!guarded) because("if one of few landmarks is wrong, so is the pose");
   const bool predicted = localization.innovation <= params.max_innovation;
   if (!predicted) because("the pose contradicts its prediction");
 
@@ -95,7 +99,7 @@ void judge(Localization& localization, bool camera_seen, bool range_finder_seen,
     localization.status = Status::kLost;
   } else if (localization.matched == 0 || localization.unrecognised || localization.off_plan ||
              localization.contradicted || localization.doubted || !(belief.yes > params.min_belief_yes) ||
-             !position_known || !heading_known || !predicted) {
+             !position_known || !heading_known || !guarded || !predicted) {
     localization.status = Status::kUncertain;
     if (localization.reason.empty()) because("belief is weak");
   } else {

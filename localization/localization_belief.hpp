@@ -85,6 +85,8 @@ struct StatusParams {
   /// Squared Mahalanobis distance of the pose from its prediction: chi-square with 3 degrees of freedom at 1e-4.
   double max_innovation = 21.1;
   double max_heading_sigma_rad = 0.0436;  ///< 2.5 degrees: two of them stay within 5 degrees
+  double max_protection_m = 0.5;          ///< of the upper protection levels, where an integrity monitor has looked
+  double max_protection_rad = 0.0873;     ///< 5 degrees
 };
 
 /// The status that belief and covariance give to an absolute pose, and the reason where it is not localized.

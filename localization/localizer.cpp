@@ -55,7 +55,7 @@ struct Localizer::State {
         fitter(map, instruments, params.fit),
         tracker(params.tracker),
         labels(map, params.contradictions_allowed),
-        monitor(params.integrity, wall_footprints(map)),
+        monitor(wall_footprints(map), params.integrity),
         search(map, fitter.scan_matcher().field(), rig, params.search),
         elsewhere(search, fitter, params.hypotheses),
         absolute(initial.has_value() && !map.empty()),
@@ -91,6 +91,7 @@ struct Localizer::State {
   bool found_elsewhere = false;  ///< in this acquisition: the pose is another one than was thought
   PoseHistory history;
   MotionPredictor predictor;
+  std::vector<int> observed_tracks;      ///< by observation, their ids, a workspace
   std::vector<double> landmark_beliefs;  ///< by observation, as the monitor took them
 
   [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
@@ -101,6 +102,7 @@ struct Localizer::State {
   void expect_young_tracks(const Pose2& step);
   [[nodiscard]] Pose2 likeliest_first_step(const Scene& scene);
   PoseEstimate solve_motion(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
+  void find_pose(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& step, bool odometry);
   void start_tracks(const Scene& scene);
   [[nodiscard]] double quality(const SceneFit& of, const Scene& scene) const;
   void search_pose(const Scene& scene, bool odometry);
@@ -110,6 +112,7 @@ struct Localizer::State {
   void go_to(const SceneFit& found);
   void report_hypotheses(Localization& fix) const;
   [[nodiscard]] Localization report(const Scene& scene) const;
+  void list_observed_tracks();
   [[nodiscard]] Integrity watch();
   void weigh(const Scene& scene, Localization& fix);
   void remember(const Localization& fix);
@@ -257,21 +260,26 @@ void Localizer::State::look_elsewhere(const Scene& scene, const PoseEstimate& mo
   if (params.method == perception::Method::kPaper || map.empty()) return;
   doubted = absolute && doubtful() ? doubted + 1 : 0;
   if (absolute && elsewhere.empty()) {
-    if (doubted < params.doubts_before_search && !jumped) return;
+    if (doubted < params.doubts_before_search && !jumped && !trust.waits_for_a_search()) return;
     elsewhere.add(fit.pose);
   }
   if (absolute && jumped) trust.jumped();
   elsewhere.update(scene, motion);
   if (!elsewhere.resolved()) return;
-  trust.confirmed();
-  // What was seen while an instrument lied may speak for a pose that explains less now than the tracked one.
   const SceneFit& best = *elsewhere.best();
-  const bool leads = elsewhere.lead_over(fit.pose.pose) > 0.0 && quality(best, scene) > quality(fit, scene);
-  if (!absolute || leads) go_to(best);
+  const bool is_tracked = absolute && elsewhere.lead_over(fit.pose.pose) == 0.0;
+  // What was seen while an instrument lied may speak for a pose that explains less now than the tracked one.
+  if (!absolute || (!is_tracked && quality(best, scene) > quality(fit, scene))) {
+    go_to(best);
+    trust.confirmed();
+  } else if (is_tracked) {
+    trust.confirmed();
+  }
   elsewhere.clear();
 }
 
-/// The pose is another one than was thought.
+/// The pose is another one than was thought. What was learned about the instruments may rest on wrong matches: it is
+/// learned anew.
 void Localizer::State::go_to(const SceneFit& found) {
   fit = found;
   labels.forget_all(tracker);
@@ -286,7 +294,6 @@ void Localizer::State::report_hypotheses(Localization& fix) const {
   if (elsewhere.empty()) return;
   fix.hypotheses = elsewhere.listed();
   fix.elsewhere = absolute && elsewhere.lead_over(fit.pose.pose) > params.elsewhere_lead;
-  if (!absolute) fix.belief = {.yes = 0.0, .no = 1.0, .unknown = 0.0};
   if (!absolute && !fix.hypotheses.empty()) {
     const double believed = fix.hypotheses.front().belief;
     fix.estimate = elsewhere.best()->estimate();
@@ -294,7 +301,10 @@ void Localizer::State::report_hypotheses(Localization& fix) const {
     fix.matched = elsewhere.best()->evidence.matched;
     fix.reason = "the place is not confirmed yet";
   }
-  if (fix.hypotheses.size() < 2) return;
+  if (fix.hypotheses.size() < 2) {
+    fix.hypotheses.clear();
+    return;
+  }
   fix.estimate.covariance += spread(fix.hypotheses, fix.estimate.pose);
   fix.status = Status::kAmbiguous;
   fix.reason = "several poses fit: a place that looks like others";
@@ -315,7 +325,7 @@ PoseEstimate Localizer::State::solve_motion(const Scene& scene, const std::vecto
     fit.observations.back().primitive = match.primitive;
   }
   const PoseEstimate solved = fitter.solve_motion(scene, motion, fit);
-  move(fit.pose, solved);
+  move(fit.pose, solved, params.calibration_walk);
   return solved;
 }
 
@@ -337,6 +347,22 @@ void Localizer::State::start_tracks(const Scene& scene) {
   }
 }
 
+/// The pose from what is matched to the tracks and to the map, and from whatever else tells.
+void Localizer::State::find_pose(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& step,
+                                 bool odometry) {
+  // A wall's track that goes on as a junction, or the reverse, is another landmark.
+  for (const Match& match : matches)
+    if (match.transition) tracker.relabel(match.track, kNoLandmark);
+  predicted = fit.pose;
+  if (!history.empty()) {
+    move(predicted, step, params.calibration_walk);
+    trust.follow(step);
+  }
+  fitter.fit(scene, tracker.tracks(), matches, predicted, history.empty(), fit);
+  search_pose(scene, odometry);
+  look_elsewhere(scene, step);
+}
+
 Localization Localizer::State::report(const Scene& scene) const {
   Localization fix;
   fix.time = scene.time;
@@ -349,14 +375,21 @@ Localization Localizer::State::report(const Scene& scene) const {
   return fix;
 }
 
+/// Which tracks the pose rests on, by observation: their indices are another's once the tracks are updated.
+void Localizer::State::list_observed_tracks() {
+  observed_tracks.clear();
+  for (const Observation& o : fit.observations)
+    observed_tracks.push_back(o.track < 0 ? -1 : tracker.tracks()[static_cast<std::size_t>(o.track)].id);
+}
+
 /// How far off the pose can be.
 Integrity Localizer::State::watch() {
   constexpr double kUntracked = 0.5;  // BetP of not knowing
   landmark_beliefs.clear();
-  for (const Observation& o : fit.observations) {
-    const bool tracked = o.track >= 0;
-    landmark_beliefs.push_back(tracked ? tracker.tracks()[static_cast<std::size_t>(o.track)].existence.pignistic()
-                                       : kUntracked);
+  for (const int id : observed_tracks) {
+    const auto track =
+        std::find_if(tracker.tracks().begin(), tracker.tracks().end(), [id](const Track& t) { return t.id == id; });
+    landmark_beliefs.push_back(track == tracker.tracks().end() ? kUntracked : track->existence.pignistic());
   }
   return monitor.assess(fit.solution, landmark_beliefs);
 }
@@ -378,7 +411,7 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
     widen(fit.pose, doubt());
     fix.estimate.covariance += doubt();
   }
-  trust.go_on_from(fix.estimate);
+  trust.go_on_from(fit.estimate());
   judge(fix, scene.camera_seen, scene.range_finder_seen, params.status);
 }
 
@@ -418,27 +451,17 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
 
   s.fit.new_matches.clear();
   s.jumped = s.found_elsewhere = false;
-  if (s.absolute) {
-    // A wall's track that goes on as a junction, or the reverse, is another landmark.
-    for (const Match& match : matches)
-      if (match.transition) s.tracker.relabel(match.track, kNoLandmark);
-    // 3. The pose from what is matched; 4. the map for what has appeared, and the pose again.
-    s.predicted = s.fit.pose;
-    if (!s.history.empty()) {
-      move(s.predicted, step, s.params.calibration_walk);
-      s.trust.follow(step);
-    }
-    s.fitter.fit(scene, s.tracker.tracks(), matches, s.predicted, s.history.empty(), s.fit);
-    s.search_pose(scene, motion.has_value());
-    s.look_elsewhere(scene, step);
-  } else {
+  // 3. The pose from what is matched; 4. the map for what has appeared, and the pose again.
+  if (s.absolute)
+    s.find_pose(scene, matches, step, motion.has_value());
+  else
     s.look_elsewhere(scene, s.solve_motion(scene, matches, step));
-  }
   if (s.absolute) s.labels.label(matches, s.tracker, s.fit);
   // 5. Start tracks; let go of landmarks that contradict the pose.
   s.start_tracks(scene);
   // Under the paper's method a track keeps its landmark as long as it lives.
   if (s.absolute && s.params.method == perception::Method::kDefault) s.labels.drop_contradicting(s.fit, s.tracker);
+  s.list_observed_tracks();
   s.tracker.update(scene);
   s.labels.forget_lost(s.tracker.tracks());
 

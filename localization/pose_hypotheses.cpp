@@ -49,10 +49,8 @@ void PoseHypotheses::update(const Scene& scene, const PoseEstimate& motion) {
         search_again(scene, params_.depth, none_ + params_.most_at_once);
     }
   }
-  if (!checked_ && convincing()) {
-    checked_ = true;
-    search_again(scene, params_.rival_within, -params_.rival_behind);
-  }
+  checked_ = convincing();
+  if (checked_) search_again(scene, params_.rival_within, -params_.rival_behind);
   fit_best(scene);
 }
 

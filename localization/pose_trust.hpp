@@ -41,6 +41,7 @@ class PoseTrust {
   /// The pose has jumped, and is not trusted before a search over all places has confirmed it.
   void jumped() { unconfirmed_ = true; }
   void confirmed();
+  [[nodiscard]] bool waits_for_a_search() const { return unconfirmed_; }
 
   /// The belief in the pose and what speaks against it, written into `fix`, whose estimate is the pose.
   /// \param before  the belief at the acquisition before

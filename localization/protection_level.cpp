@@ -49,8 +49,10 @@ double protection_level(std::span<const FaultHypothesis> hypotheses, const Fault
   constexpr double kGrowth = 1.4, kPrecision = 0.02;
   const auto log_excess = [&](double level) { return std::log(std::max(excess(hypotheses, of, level), 1e-300)); };
   const double target = std::log(risk);
-  double low = 4.0 * hypotheses.front().*of.sigma, high = low;  // the pose's own error alone is above this
-  double log_low = 0.0, log_high = 0.0;
+  constexpr double kLeast = 1e-6;
+  double low = 0.0, high = std::max(kLeast, 4.0 * hypotheses.front().*of.sigma);
+  double log_low = log_excess(low), log_high = 0.0;
+  if (log_low <= target) return 0.0;
   while ((log_high = log_excess(high)) > target) {
     if (high >= most) return std::numeric_limits<double>::infinity();
     low = high;

@@ -64,7 +64,7 @@ class Monitor : public ::testing::Test {
  protected:
   Integrity assess(const std::vector<Observation>& seen, double belief = 0.9, std::span<const Alias> aliases = {}) {
     solution_ = PoseSolver().solve(prior_, seen);
-    return IntegrityMonitor(params_).assess(solution_, std::vector<double>(seen.size(), belief), aliases);
+    return IntegrityMonitor({}, params_).assess(solution_, std::vector<double>(seen.size(), belief), aliases);
   }
   [[nodiscard]] double position_error() const { return solution_.pose.pose.translation().norm(); }
 
@@ -79,7 +79,7 @@ TEST_F(Monitor, WithoutFaultsTheLevelIsTheGaussianOne) {
   params_.sigma_overbound = 1.0;
   const Integrity integrity = assess(surroundings(6, 6));
   const double sigma = std::sqrt(solution_.pose.covariance()(0, 0));
-  const double k = std::sqrt(-2.0 * std::log(params_.risk));
+  const double k = std::sqrt(-2.0 * std::log(0.5 * params_.risk));
   EXPECT_NEAR(integrity.protection.position_high_m, k * sigma, 0.05 * k * sigma);
   EXPECT_NEAR(integrity.protection.heading_high_rad, k * std::sqrt(solution_.pose.covariance()(2, 2)),
               0.05 * k * std::sqrt(solution_.pose.covariance()(2, 2)));

@@ -121,7 +121,7 @@ TEST_F(AlongAWall, TheProtectionLevelCoversWhatAMovedWallHasDone) {
   const std::vector<WallFootprint> footprints = wall_footprints(map);
   for (const int steps : {0, 1, 3, 10, 20}) {
     drive(steps, 0.06);
-    const Integrity integrity = IntegrityMonitor({}, footprints).assess(solution, std::vector(observed, 0.9));
+    const Integrity integrity = IntegrityMonitor(footprints).assess(solution, std::vector(observed, 0.9));
     EXPECT_GT(integrity.protection.position_high_m, std::abs(error())) << steps;
   }
 }
