@@ -95,8 +95,11 @@ bool RepeatedModules::proposed_before(std::size_t seed, const Vector2d& shift) c
                      [&](const SeenPoint& seen) { return way_near(seen, shift, 0.5 * tolerance_m_) != nullptr; });
 }
 
-/// The mean shift of the points that are there again; nothing where more than `absent` are not, or a wall is not.
+/// The mean shift of the points that are there again; nothing where a wall is not, or more than `absent` points are
+/// not.
 std::optional<Vector2d> RepeatedModules::confirmed(const Vector2d& proposed, std::size_t absent) {
+  for (const SeenWall& seen : seen_walls_)
+    if (!stands(seen, proposed)) return std::nullopt;
   Vector2d sum = Vector2d::Zero();
   std::size_t missed = 0;
   for (const SeenPoint& seen : seen_points_) {
@@ -105,8 +108,6 @@ std::optional<Vector2d> RepeatedModules::confirmed(const Vector2d& proposed, std
     else if (++missed > absent)
       return std::nullopt;
   }
-  for (const SeenWall& seen : seen_walls_)
-    if (!stands(seen, proposed)) return std::nullopt;
   return sum / static_cast<double>(seen_points_.size() - missed);
 }
 

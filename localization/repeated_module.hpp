@@ -37,7 +37,7 @@ class RepeatedModules {
 
   /// The shifts after which every wall and nearly all points that the pose rests on would be matched as well, nearest
   /// first. Shifts below two tolerances are the pose itself.
-  /// \param observations  those of the solution; its outliers do not count
+  /// \param observations  those of the solution, of landmarks of the map; its outliers do not count
   /// \returns a view that stays valid until the next call
   [[nodiscard]] std::span<const Alias> find(std::span<const Observation> observations, const PoseSolution& solution);
 
