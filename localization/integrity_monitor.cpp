@@ -287,11 +287,14 @@ void IntegrityMonitor::add_points(const PoseSolution& solution) {
   }
 }
 
-/// Two walls and another landmark, or more.
-ProbabilityInterval IntegrityMonitor::unmonitored() const {
+/// Two walls and another landmark, and more: then nothing but the prediction is right.
+void IntegrityMonitor::add_all(const PoseSolution& solution) {
+  StateMatrix prior_covariance;
+  if (!invert(solution.prior_information, prior_covariance)) return;
   const ProbabilityInterval walls = expected_faults(true), points = expected_faults(false);
   const ProbabilityInterval pairs = at_least(2, walls), triples = at_least(3, walls);
-  return {pairs.low * points.low + triples.low, pairs.high * points.high + triples.high};
+  add({pairs.low * points.low + triples.low, pairs.high * points.high + triples.high},
+      prior_covariance.topLeftCorner<3, 3>(), -solution.step.head<3>());
 }
 
 Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const double> beliefs,
@@ -307,6 +310,7 @@ Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const
     add_landmarks(covariance, integrity);
     add_walls(solution);
     add_points(solution);
+    add_all(solution);
     add_instruments(solution, covariance, integrity);
     add_prediction(solution, covariance, integrity);
   }
@@ -318,11 +322,8 @@ Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const
   for (const Alias& alias : aliases)
     hypotheses_.push_back({alias.probability, alias.distance_m, alias.turn_rad, kExactly, kExactly});
 
-  const ProbabilityInterval rest = unmonitored();
   const auto levels = [&](double ProbabilityInterval::*end, double& position_m, double& heading_rad) {
-    const double risk = 0.5 * (params_.risk - rest.*end);  // for the position; as much for the heading
-    position_m = heading_rad = kInfinity;
-    if (!(risk > 0.0)) return;
+    const double risk = 0.5 * params_.risk;  // for the position; as much for the heading
     using H = FaultHypothesis;
     position_m = protection_level(hypotheses_, {end, &H::separation_m, &H::sigma_m}, risk, kFarthest_m);
     heading_rad = protection_level(hypotheses_, {end, &H::separation_rad, &H::sigma_rad}, risk, std::numbers::pi);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "localization/pose_history.hpp"
+#include "localization/repeated_module.hpp"
 #include "localization/scan_agreement.hpp"
 #include "localization/track_labels.hpp"
 
@@ -56,11 +57,15 @@ struct Localizer::State {
         tracker(params.tracker),
         labels(map, params.contradictions_allowed),
         monitor(wall_footprints(map), params.integrity),
+        modules(map, params.integrity),
         search(map, fitter.scan_matcher().field(), rig, params.search),
         elsewhere(search, fitter, params.hypotheses),
         absolute(initial.has_value() && !map.empty()),
         trust(initial.value_or(PoseEstimate{}), params.belief, params.status, params.trust),
         predictor(params.constant_velocity) {
+    constexpr std::size_t kUsualObservations = 256;
+    observed_tracks.reserve(kUsualObservations);
+    landmark_beliefs.reserve(kUsualObservations);
     if (rig.camera) {
       const sensors::OmniCamera& camera = *rig.camera;
       mirror = {camera.center_px, camera.accuracy.center_px, Vector2d::Zero(), camera.accuracy.tilt_rad};
@@ -77,6 +82,7 @@ struct Localizer::State {
   tracking::Tracker tracker;
   TrackLabels labels;
   IntegrityMonitor monitor;
+  RepeatedModules modules;
   GlobalSearch search;
   PoseHypotheses elsewhere;  ///< where the robot may be, while its pose is unknown or in doubt
   bool absolute;             ///< poses are in the map frame, not relative to the start
@@ -391,7 +397,7 @@ Integrity Localizer::State::watch() {
         std::find_if(tracker.tracks().begin(), tracker.tracks().end(), [id](const Track& t) { return t.id == id; });
     landmark_beliefs.push_back(track == tracker.tracks().end() ? kUntracked : track->existence.pignistic());
   }
-  return monitor.assess(fit.solution, landmark_beliefs);
+  return monitor.assess(fit.solution, landmark_beliefs, modules.find(fit.observations, fit.solution));
 }
 
 /// Belief and status of an absolute pose.

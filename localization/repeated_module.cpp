@@ -53,6 +53,12 @@ RepeatedModules::RepeatedModules(const LandmarkMap& map, const IntegrityParams& 
     }
   }
   begin_.push_back(ways_.size());
+  constexpr std::size_t kUsual = 128;
+  seen_points_.reserve(kUsual);
+  seen_walls_.reserve(kUsual);
+  near_.reserve(kUsual);
+  shifts_.reserve(kUsual);
+  aliases_.reserve(kUsual);
 }
 
 std::span<const RepeatedModules::Way> RepeatedModules::ways_from(std::size_t point) const {

@@ -192,7 +192,7 @@ TEST_F(Monitor, WheelsThatSlippedAreToldByTheLandmarks) {
 TEST_F(Monitor, AnAliasThatIsLikelyEnoughWidensTheLevelToItself) {
   const std::array likely{Alias{.distance_m = 2.0, .turn_rad = 0.0, .probability = {1e-6, 1e-3}}};
   const Integrity integrity = assess(surroundings(8, 8), 0.9, likely);
-  EXPECT_LT(integrity.protection.position_low_m, 0.5);
+  EXPECT_LT(integrity.protection.position_low_m, 1.0);
   EXPECT_GE(integrity.protection.position_high_m, 2.0);
   const double heading = assess(surroundings(8, 8)).protection.heading_high_rad;
   EXPECT_NEAR(integrity.protection.heading_high_rad, heading, 0.1 * heading) << "it is not turned";
