@@ -6,12 +6,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "localization/pose_history.hpp"
-#include "localization/repeated_module.hpp"
-#include "localization/scan_agreement.hpp"
-#include "localization/track_labels.hpp"
+#include "localization/localizer_state.hpp"
 
 namespace credo::localization {
 namespace {
@@ -25,104 +21,39 @@ using perception::PrimitiveType;
 using perception::Scene;
 using sensors::Timestamp;
 using tracking::kNoLandmark;
-using tracking::LandmarkId;
 using tracking::Match;
 using tracking::Track;
 
 /// The start of a run without a plan or without an initial pose: the origin of its own frame, exactly.
 constexpr double kOriginSigma = 1e-6;
 
-/// Second moment of poses about one of them, weighted by their plausibilities.
-Matrix3d spread(const std::vector<Hypothesis>& hypotheses, const Pose2& about) {
-  Matrix3d sum = Matrix3d::Zero();
-  double total = 0.0;
-  for (const Hypothesis& h : hypotheses) {
-    const Eigen::Vector3d off(h.pose.x - about.x, h.pose.y - about.y,
-                              geometry::angle_difference(h.pose.theta, about.theta));
-    sum += h.plausibility * off * off.transpose();
-    total += h.plausibility;
-  }
-  return sum / total;
-}
-
 }  // namespace
 
-struct Localizer::State {
-  State(const geometry::FloorPlan& plan, const sensors::Rig& instruments, const std::optional<PoseEstimate>& initial,
-        const LocalizerParams& p)
-      : params(p.with_method(p.method)),
-        rig(instruments),
-        map(plan, params.map),
-        fitter(map, instruments, params.fit),
-        tracker(params.tracker),
-        labels(map, params.contradictions_allowed),
-        monitor(wall_footprints(map), params.integrity),
-        modules(map, params.integrity),
-        search(map, fitter.scan_matcher().field(), rig, params.search),
-        elsewhere(search, fitter, params.hypotheses),
-        absolute(initial.has_value() && !map.empty()),
-        trust(initial.value_or(PoseEstimate{}), params.belief, params.status, params.trust),
-        predictor(params.constant_velocity) {
-    constexpr std::size_t kUsualObservations = 256;
-    observed_tracks.reserve(kUsualObservations);
-    landmark_beliefs.reserve(kUsualObservations);
-    if (rig.camera) {
-      const sensors::OmniCamera& camera = *rig.camera;
-      mirror = {camera.center_px, camera.accuracy.center_px, Vector2d::Zero(), camera.accuracy.tilt_rad};
-    }
-    const PoseEstimate origin{{}, kOriginSigma * kOriginSigma * Matrix3d::Identity()};
-    fit.pose = calibrated_pose(rig, absolute ? *initial : origin, 2 * (map.junction_count() + map.landmark_count()));
+Localizer::State::State(const geometry::FloorPlan& plan, const sensors::Rig& instruments,
+                        const std::optional<PoseEstimate>& initial, const LocalizerParams& p)
+    : params(p.with_method(p.method)),
+      rig(instruments),
+      map(plan, params.map),
+      fitter(map, instruments, params.fit),
+      tracker(params.tracker),
+      labels(map, params.contradictions_allowed),
+      monitor(wall_footprints(map), params.integrity),
+      modules(map, params.integrity),
+      search(map, fitter.scan_matcher().field(), rig, params.search),
+      elsewhere(search, fitter, params.hypotheses),
+      absolute(initial.has_value() && !map.empty()),
+      trust(initial.value_or(PoseEstimate{}), params.belief, params.status, params.trust),
+      predictor(params.constant_velocity) {
+  constexpr std::size_t kUsualObservations = 256;
+  observed_tracks.reserve(kUsualObservations);
+  landmark_beliefs.reserve(kUsualObservations);
+  if (rig.camera) {
+    const sensors::OmniCamera& camera = *rig.camera;
+    mirror = {camera.center_px, camera.accuracy.center_px, Vector2d::Zero(), camera.accuracy.tilt_rad};
   }
-
-  LocalizerParams params;
-  sensors::Rig rig;
-  perception::MirrorEstimate mirror;  ///< the latest
-  LandmarkMap map;
-  SceneFitter fitter;
-  tracking::Tracker tracker;
-  TrackLabels labels;
-  IntegrityMonitor monitor;
-  RepeatedModules modules;
-  GlobalSearch search;
-  PoseHypotheses elsewhere;  ///< where the robot may be, while its pose is unknown or in doubt
-  bool absolute;             ///< poses are in the map frame, not relative to the start
-  PoseTrust trust;
-  SceneFit fit;                  ///< the latest pose and what it rests on
-  SceneFit other;                ///< another one that is tried
-  CalibratedPose predicted;      ///< from the latest pose
-  CalibratedPose wide;           ///< the same, less sure
-  int matched_before = 0;        ///< primitives that the latest fix rests on
-  int doubted = 0;               ///< acquisitions in a row in which the plan was not recognised
-  bool jumped = false;           ///< in this acquisition: the pose was found some way from where it was expected
-  bool found_elsewhere = false;  ///< in this acquisition: the pose is another one than was thought
-  PoseHistory history;
-  MotionPredictor predictor;
-  std::vector<int> observed_tracks;      ///< by observation, their ids, a workspace
-  std::vector<double> landmark_beliefs;  ///< by observation, as the monitor took them
-
-  [[nodiscard]] PoseEstimate predicted_motion(const std::optional<PoseEstimate>& motion, Timestamp time) const;
-  [[nodiscard]] PoseEstimate predict(const Scene& scene, const std::optional<PoseEstimate>& motion);
-  [[nodiscard]] PoseEstimate motion_to(const CalibratedPose& pose) const;
-  [[nodiscard]] Matrix3d doubt() const;
-  void expect_landmarks(const CalibratedPose& from);
-  void expect_young_tracks(const Pose2& step);
-  [[nodiscard]] Pose2 likeliest_first_step(const Scene& scene);
-  PoseEstimate solve_motion(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& motion);
-  void find_pose(const Scene& scene, const std::vector<Match>& matches, const PoseEstimate& step, bool odometry);
-  void start_tracks(const Scene& scene);
-  [[nodiscard]] double quality(const SceneFit& of, const Scene& scene) const;
-  void search_pose(const Scene& scene, bool odometry);
-  bool match_anew(const Scene& scene, const CalibratedPose& expected);
-  [[nodiscard]] bool doubtful() const;
-  void look_elsewhere(const Scene& scene, const PoseEstimate& motion);
-  void go_to(const SceneFit& found);
-  void report_hypotheses(Localization& fix) const;
-  [[nodiscard]] Localization report(const Scene& scene) const;
-  void list_observed_tracks();
-  [[nodiscard]] Integrity watch();
-  void weigh(const Scene& scene, Localization& fix);
-  void remember(const Localization& fix);
-};
+  const PoseEstimate origin{{}, kOriginSigma * kOriginSigma * Matrix3d::Identity()};
+  fit.pose = calibrated_pose(rig, absolute ? *initial : origin, 2 * (map.junction_count() + map.landmark_count()));
+}
 
 /// Odometry's motion, which the paper's method does without; else what the latest velocity predicts; nothing before the
 /// first scene.
@@ -211,109 +142,6 @@ Pose2 Localizer::State::likeliest_first_step(const Scene& scene) {
     best = step;
   }
   return best;
-}
-
-/// By which two ways to match a scene are compared: the belief in the pose and the share of what is seen that it
-/// explains.
-double Localizer::State::quality(const SceneFit& of, const Scene& scene) const {
-  const double share = of.evidence.matched / std::max(1.0, static_cast<double>(scene.primitives.size()));
-  return localization_belief(of.evidence, params.belief).mass.pignistic() + params.matched_share_weight * share;
-}
-
-/// Gathers the evidence about the pose. Primitives that were matched wrongly agree with the wrong pose that they make;
-/// the raw scan and the landmarks that should be in sight do not. Where these speak against the pose, everything is
-/// matched anew from the pose nearby from which the scan lies best on the plan, and what is believed more is kept.
-void Localizer::State::search_pose(const Scene& scene, bool odometry) {
-  fitter.gather(scene, fit);
-  if (!fit.evidence.scan_agreement) return;
-  const bool off_plan = *fit.evidence.scan_agreement < params.search_below;
-  const bool unrecognised = recognition_belief(fit.evidence, params.belief).no > 0.0;
-  const bool lost_sight = fit.evidence.matched < params.search_matched_below * matched_before;
-  if (!off_plan && !unrecognised && !lost_sight) return;
-  wide = predicted;
-  widen(wide, doubt());
-  if (match_anew(scene, wide) || odometry) return;
-  const double turn = params.unforeseen_turn_sigma_rad;
-  widen(wide, Eigen::Vector3d(0.0, 0.0, turn * turn).asDiagonal());
-  match_anew(scene, wide);
-}
-
-/// Matches everything from the pose that the scan fits best about an expected one.
-/// \returns whether that is better than what was there, which is kept else.
-bool Localizer::State::match_anew(const Scene& scene, const CalibratedPose& expected) {
-  const double position = params.searched_sigma_m * params.searched_sigma_m;
-  const double turn = params.searched_sigma_rad * params.searched_sigma_rad;
-  const PoseEstimate found{fitter.scan_matcher().search(scene.points, {expected.pose, expected.covariance()}),
-                           Eigen::Vector3d(position, position, turn).asDiagonal()};
-  fitter.fit_anew(scene, found, expected, other);
-  fitter.gather(scene, other);
-  if (!(quality(other, scene) > quality(fit, scene) + params.search_gain)) return false;
-  std::swap(fit, other);
-  jumped = jumped || (fit.pose.pose.translation() - expected.pose.translation()).norm() > params.hypotheses.meet_m;
-  labels.forget_all(tracker);
-  return true;
-}
-
-/// The plan does not look as it should from the pose.
-bool Localizer::State::doubtful() const {
-  return agreement_belief(fit.evidence, params.belief).no > 0.0 ||
-         recognition_belief(fit.evidence, params.belief).no > 0.0;
-}
-
-/// Follows all poses that the robot may have, from when the pose is doubted, or has jumped, until one is left. That one
-/// is taken.
-void Localizer::State::look_elsewhere(const Scene& scene, const PoseEstimate& motion) {
-  if (params.method == perception::Method::kPaper || map.empty()) return;
-  doubted = absolute && doubtful() ? doubted + 1 : 0;
-  if (absolute && elsewhere.empty()) {
-    if (doubted < params.doubts_before_search && !jumped && !trust.waits_for_a_search()) return;
-    elsewhere.add(fit.pose);
-  }
-  if (absolute && jumped) trust.jumped();
-  elsewhere.update(scene, motion);
-  if (!elsewhere.resolved()) return;
-  const SceneFit& best = *elsewhere.best();
-  const bool is_tracked = absolute && elsewhere.lead_over(fit.pose.pose) == 0.0;
-  // What was seen while an instrument lied may speak for a pose that explains less now than the tracked one.
-  if (!absolute || (!is_tracked && quality(best, scene) > quality(fit, scene))) {
-    go_to(best);
-    trust.confirmed();
-  } else if (is_tracked) {
-    trust.confirmed();
-  }
-  elsewhere.clear();
-}
-
-/// The pose is another one than was thought. What was learned about the instruments may rest on wrong matches: it is
-/// learned anew.
-void Localizer::State::go_to(const SceneFit& found) {
-  fit = found;
-  labels.forget_all(tracker);
-  absolute = found_elsewhere = true;
-  doubted = 0;
-  trust.found(fit.estimate());
-}
-
-/// What is known of other poses, while they are looked for. Before there is an absolute pose the most plausible one is
-/// told, believed as far as the others are implausible.
-void Localizer::State::report_hypotheses(Localization& fix) const {
-  if (elsewhere.empty()) return;
-  fix.hypotheses = elsewhere.listed();
-  fix.elsewhere = absolute && elsewhere.lead_over(fit.pose.pose) > params.elsewhere_lead;
-  if (!absolute && !fix.hypotheses.empty()) {
-    const double believed = fix.hypotheses.front().belief;
-    fix.estimate = elsewhere.best()->estimate();
-    fix.belief = {.yes = believed, .no = 0.0, .unknown = 1.0 - believed};
-    fix.matched = elsewhere.best()->evidence.matched;
-    fix.reason = "the place is not confirmed yet";
-  }
-  if (fix.hypotheses.size() < 2) {
-    fix.hypotheses.clear();
-    return;
-  }
-  fix.estimate.covariance += spread(fix.hypotheses, fix.estimate.pose);
-  fix.status = Status::kAmbiguous;
-  fix.reason = "several poses fit: a place that looks like others";
 }
 
 /// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
