@@ -10,7 +10,8 @@ namespace credo::apps {
 
 std::filesystem::path find_shipped(const std::string& name, const ShippedFiles& files) {
   namespace fs = std::filesystem;
-  if (fs::exists(name)) return name;
+  // A folder may well have the name of the world that was simulated into it.
+  if (fs::exists(name) && !fs::is_directory(name)) return name;
   std::error_code ignored;
   const fs::path binary = fs::read_symlink("/proc/self/exe", ignored);
   std::set<std::string> known;
@@ -21,6 +22,7 @@ std::filesystem::path find_shipped(const std::string& name, const ShippedFiles& 
     for (const auto& entry : fs::directory_iterator(folder))
       if (entry.path().extension() == ".yaml") known.insert(entry.path().stem().string());
   }
+  if (fs::is_directory(name)) return name;
   const std::string what = files.what;
   std::string message = name + ": no such " + what + " file; " + what + "s that come with credo:";
   if (*files.besides != '\0') message += std::string(" ") + files.besides;

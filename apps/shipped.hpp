@@ -21,8 +21,9 @@ struct ShippedFiles {
 inline constexpr ShippedFiles kWorlds{"world", "worlds", CREDO_WORLDS, kRandomWorld};
 inline constexpr ShippedFiles kCampaigns{"campaign", "campaigns", CREDO_CAMPAIGNS, ""};
 
-/// A file that is there, or one of those that come with credo by its name without ".yaml".
-/// \throws std::runtime_error for neither, with the names that are known
+/// A file that is there, or one of those that come with credo by its name without ".yaml"; else a folder that is there,
+/// for its reader to refuse.
+/// \throws std::runtime_error for none of these, with the names that are known
 [[nodiscard]] std::filesystem::path find_shipped(const std::string& name, const ShippedFiles& files);
 
 }  // namespace credo::apps

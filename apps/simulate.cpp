@@ -36,7 +36,7 @@ struct SimulateOptions {
 };
 
 sim::World world_of(const SimulateOptions& options) {
-  if (options.world != kRandomWorld || fs::exists(options.world)) {
+  if (options.world != kRandomWorld || fs::is_regular_file(options.world)) {
     if (!options.kind.empty()) throw std::runtime_error("--kind is for the world 'random', not for " + options.world);
     return sim::load_world(find_shipped(options.world, kWorlds));
   }

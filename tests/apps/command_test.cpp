@@ -103,62 +103,6 @@ TEST_F(Command, UnknownWordsAreMetWithTheNearestKnownOne) {
   }
 }
 
-TEST_F(Command, APaperThatCannotBeReproducedIsMetWithThoseThatCan) {
-  const Answer answer = credo("reproduce sonar");
-  EXPECT_EQ(answer.status, 2);
-  EXPECT_THAT(answer.error, AllOf(HasSubstr("'sonar'"), HasSubstr("there are: clerentin")));
-}
-
-TEST_F(Command, ReproducePutsThePaperBesideBothMethodsOnTheSameReadings) {
-  write_small_world();
-  const std::string clerentin = "reproduce clerentin --seed 3 --seeds 2 --ways small.yaml";
-  const Answer text = credo(clerentin);
-  ASSERT_EQ(text.status, 0) << text.error;
-  EXPECT_THAT(text.out, AllOf(HasSubstr("mean position error [cm]"), HasSubstr("table 1"), HasSubstr("m_l(YES)")));
-  EXPECT_EQ(credo(clerentin).out, text.out);
-
-  const json report = json::parse(credo(clerentin + " --format json").out);
-  EXPECT_EQ(report["printed"]["mean_position_cm"], "13");
-  const json& method = report["method_default"];
-  EXPECT_EQ(method["acquisitions"].size(), 2 * report["acquisitions_per_seed"].get<std::size_t>());
-  EXPECT_LT(method["figures"]["mean_position_cm"]["mean"].get<double>(), 5.0);
-  // What was played in memory is what a dataset of the same seed gives.
-  ASSERT_EQ(credo("simulate small.yaml --seed 3 --out data").status, 0);
-  const json alone = json::parse(credo("reproduce clerentin --seed 3 --seeds 1 --ways small.yaml --format json").out);
-  for (const char* name : {"paper", "default"}) {
-    const Answer run = credo(std::string("run data --force --out run --format json --method ") + name);
-    const json in_memory = alone[std::string("method_") + name]["figures"]["mean_position_cm"]["mean"];
-    const double on_disk = json::parse(run.out)["score"]["mean_position_m"].get<double>();
-    EXPECT_NEAR(0.01 * in_memory.get<double>(), on_disk, 1e-3) << name;
-  }
-}
-
-TEST_F(Command, ThePageOfTheReproductionsShowsTheTableThatReproducePrints) {
-  write_small_world();
-  const std::string printed = credo("reproduce clerentin --seeds 1 --ways small.yaml").out;
-  const std::string page = text_of(CREDO_SOURCE_DIR "/docs/reproduce.md");
-  std::istringstream table(page.substr(page.find("mean position error [cm]")));
-  int lines = 0;
-  for (std::string line; std::getline(table, line) && line != "```"; ++lines) {
-    constexpr std::size_t kWordsAndPaper = 63;  // what stands before our own numbers
-    EXPECT_THAT(printed, HasSubstr(line.substr(0, kWordsAndPaper)));
-  }
-  EXPECT_GT(lines, 20);
-}
-
-TEST_F(Command, ReproduceLeavesAReportAndPictures) {
-  write_small_world();
-  const std::string command = "reproduce clerentin --seeds 1 --ways small.yaml --out out --pictures out/pictures";
-  const Answer answer = credo(command);
-  ASSERT_EQ(answer.status, 0) << answer.error;
-  EXPECT_THAT(answer.out, StartsWith(read("out/report.txt")));
-  EXPECT_EQ(json::parse(read("out/report.json"))["paper"], "clerentin");
-  for (const char* name : {"positions_paper", "positions_default", "beliefs"})
-    EXPECT_TRUE(fs::exists(folder_ / "out/pictures" / (std::string(name) + ".png"))) << name;
-  EXPECT_EQ(credo(command).status, 1);
-  EXPECT_EQ(credo(command + " --force").status, 0);
-}
-
 TEST_F(Command, WrongInputEndsWithStatusOneAndSaysWhere) {
   write("bad.tum", "0 0 0 0 0 0 0 1\n1 0 0 zero 0 0 0 1\n");
   write("ref.tum", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");
@@ -539,45 +483,6 @@ TEST_F(Command, ARefusedRunLeavesNoFolder) {
   ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
   EXPECT_EQ(credo("run data --resolution 9 --out new/newer/run").status, 1);
   EXPECT_FALSE(fs::exists(folder_ / "new"));
-}
-
-TEST_F(Command, LocalizersAreComparedOnTheSameReadings) {
-  write_small_world();
-  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
-  const Answer text = credo("compare localizers data --out table.csv --pictures pictures");
-  EXPECT_EQ(text.status, 0) << text.error;
-  EXPECT_THAT(text.out, AllOf(StartsWith("small: "), HasSubstr("EKF, JCBB"), HasSubstr("ICP, oracle start"),
-                              HasSubstr("misleading: available, yet")));
-  EXPECT_TRUE(fs::exists(folder_ / "pictures" / "errors_data.png"));
-  EXPECT_THAT(read("table.csv"), AllOf(StartsWith("dataset,localizer,"), HasSubstr("\nsmall,\"Credo, paper\",")));
-
-  const json tables = json::parse(credo("compare localizers data data --format json").out);
-  ASSERT_EQ(tables.size(), 3u);  // the third: all together
-  const json& credos = tables[2]["localizers"].back();
-  EXPECT_EQ(credos["localizer"], "Credo");
-  EXPECT_EQ(credos["acquisitions"], 2 * tables[0]["localizers"].back()["acquisitions"].get<int>());
-  EXPECT_LT(credos["mean_position_m"], 0.05);
-  for (const json& line : tables[0]["localizers"])
-    EXPECT_TRUE(line.contains("mean_position_m") || line.contains("note")) << line;
-}
-
-TEST_F(Command, AssociationsAreComparedOnTheSamePredictions) {
-  write_small_world();
-  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
-  const json tables = json::parse(credo("compare association data --format json").out);
-  for (const json& method : tables[0]["methods"]) EXPECT_GT(method["right"], 0) << method;
-  EXPECT_THAT(credo("compare association data").out, AllOf(HasSubstr("JPDA"), HasSubstr("wrong share: ")));
-}
-
-TEST_F(Command, WhatCannotBeComparedSaysWhatItLacks) {
-  write_small_world();
-  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
-  fs::remove_all(folder_ / "data" / "groundtruth0");
-  for (const char* what : {"localizers", "association"}) {
-    const Answer answer = credo("compare " + std::string(what) + " data");
-    EXPECT_EQ(answer.status, 1) << what;
-    EXPECT_THAT(answer.error, HasSubstr("data: the dataset has no ground truth")) << what;
-  }
 }
 
 }  // namespace
