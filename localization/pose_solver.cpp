@@ -141,7 +141,6 @@ void PoseSolver::State::judge(const PoseState::Vector& x) {
     solution.outlier.push_back(squared > gates[static_cast<std::size_t>(o.dimension() - 1)]);
   }
   solution.common_errors = x.tail<6>();
-  solution.prior_mahalanobis_squared = problem.prior().step_squared(x);
 }
 
 /// The sums over all observations that the error of a solution is made of, with the gains K_k of the residuals and
@@ -223,7 +222,6 @@ const PoseSolution& PoseSolver::solve(const CalibratedPose& prior, const std::ve
   s.solution.mahalanobis_squared.clear();
   s.solution.outlier.clear();
   s.solution.linearised.clear();
-  s.solution.prior_mahalanobis_squared = 0.0;
   if (observations.empty()) {
     s.solution.pose = prior;
     s.solution.common_errors = prior.common_errors;

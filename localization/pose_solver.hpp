@@ -38,7 +38,6 @@ struct PoseSolution {
   Eigen::Matrix<double, 6, 1> common_errors = Eigen::Matrix<double, 6, 1>::Zero();
   std::vector<double> mahalanobis_squared;                        ///< of each observation's residual at the solution
   std::vector<bool> outlier;                                      ///< by PoseSolverParams::outlier_probability
-  double prior_mahalanobis_squared = 0.0;                         ///< of the step from the prior
   std::vector<LinearisedObservation> linearised;                  ///< one for each observation
   PoseState::Matrix information = PoseState::Matrix::Identity();  ///< of the state: prior and all of `linearised`
 
