@@ -325,8 +325,8 @@ Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const
   const auto levels = [&](double ProbabilityInterval::*end, double& position_m, double& heading_rad) {
     const double risk = 0.5 * params_.risk;  // for the position; as much for the heading
     using H = FaultHypothesis;
-    position_m = protection_level(hypotheses_, {end, &H::separation_m, &H::sigma_m}, risk, kFarthest_m);
-    heading_rad = protection_level(hypotheses_, {end, &H::separation_rad, &H::sigma_rad}, risk, std::numbers::pi);
+    position_m = protection_level_(hypotheses_, {end, &H::separation_m, &H::sigma_m}, risk, kFarthest_m);
+    heading_rad = protection_level_(hypotheses_, {end, &H::separation_rad, &H::sigma_rad}, risk, std::numbers::pi);
   };
   ProtectionLevels& protection = integrity.protection;
   levels(&ProbabilityInterval::low, protection.position_low_m, protection.heading_low_rad);
