@@ -37,6 +37,12 @@ void mark_extrema(const std::int16_t* response, int columns, std::int16_t least,
   }
 }
 
+std::int16_t largest(const std::int16_t* samples, int columns) {
+  std::int16_t found = 0;
+  for (int i = 0; i < columns; ++i) found = std::max(found, samples[i]);
+  return found;
+}
+
 bool any_of_block(const std::uint8_t* marks) {
   std::array<std::uint64_t, kBlock / 8> words;
   std::memcpy(words.data(), marks, kBlock);
@@ -185,8 +191,7 @@ void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixe
     const AnnulusRow& circle = table.rows()[row];
     const int columns = circle.columns;
     mark_extrema(response_.data() + kMargin, columns, least, marks_.data());
-    row_saturates_ =
-        *std::max_element(samples_.begin() + kMargin, samples_.begin() + kMargin + columns) > saturated_sample;
+    row_saturates_ = largest(samples_.data() + kMargin, columns) > saturated_sample;
     columns_.clear();
     for (int block = 0; block < columns; block += kBlock) {
       if (!any_of_block(marks_.data() + block)) continue;
