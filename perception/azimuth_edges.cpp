@@ -4,6 +4,7 @@
 #include "perception/azimuth_edges.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -17,7 +18,6 @@ namespace {
 constexpr int kHitLanes = 8;  // hits that are reckoned side by side
 using HitLanes = Eigen::Array<double, kHitLanes, 1>;
 
-constexpr int kBlock = 16;          // columns that are skipped together where there is no extremum
 constexpr int kLargestTapSum = 32;  // keeps the answer to 255 * AnnulusTable::kScale within 16 bits
 constexpr double kMedianToSigma = 1.4826;
 // Independent pixel noise keeps about this share of its sigma when two rows of pixels are mixed by weights that take
@@ -43,10 +43,17 @@ std::int16_t largest(const std::int16_t* samples, int columns) {
   return found;
 }
 
-bool any_of_block(const std::uint8_t* marks) {
-  std::array<std::uint64_t, kBlock / 8> words;
-  std::memcpy(words.data(), marks, kBlock);
-  return (words[0] | words[1]) != 0;
+/// The columns that are marked, growing. Most are not: eight are looked at together, the first in the lowest byte.
+/// \param columns  a multiple of 8
+/// \param marks    0 or 1
+template <class Visit>
+void for_each_mark(const std::uint8_t* marks, int columns, Visit&& visit) {
+  static_assert(std::endian::native == std::endian::little);
+  std::uint64_t word = 0;
+  for (int first = 0; first < columns; first += static_cast<int>(sizeof word)) {
+    std::memcpy(&word, marks + first, sizeof word);
+    for (; word != 0; word &= word - 1) visit(first + std::countr_zero(word) / 8);
+  }
 }
 
 /// exp(-x^2 / 2), looked up to 1e-4: how far the answers to two steps at a distance of x widths overlap.
@@ -193,11 +200,9 @@ void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixe
     mark_extrema(response_.data() + kMargin, columns, least, marks_.data());
     row_saturates_ = largest(samples_.data() + kMargin, columns) > saturated_sample;
     columns_.clear();
-    for (int block = 0; block < columns; block += kBlock) {
-      if (!any_of_block(marks_.data() + block)) continue;
-      for (int i = block; i < block + kBlock; ++i)
-        if (marks_[i] != 0 && usable(table, row, i)) columns_.push_back(i);
-    }
+    for_each_mark(marks_.data(), columns, [&](int column) {
+      if (usable(table, row, column)) columns_.push_back(column);
+    });
     const std::size_t before = hits.size();
     for (std::size_t first = 0; first < columns_.size(); first += kHitLanes)
       add_hits(circle, row,
@@ -210,7 +215,7 @@ void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixe
 /// a1 (m - x1) g(m - x1) + a2 (m - x2) g(m - x2) = 0, so m - x1 = (a2 / a1) d g(d) / g(m - x1) with d = x2 - m. To
 /// first order the last g is 1; the measured heights give a1, a2 by two linear equations with g(d).
 /// \param pairs  the first of two neighbouring hits each, at most kHitLanes
-void AzimuthEdgeFilter::part(std::span<const int> pairs, double width, const EdgeHit* hits) {
+void AzimuthEdgeFilter::part(std::span<const int> pairs, double width, std::span<const EdgeHit> hits) {
   static const Overlap overlap_at;
   HitLanes apparent, a_height, b_height;
   for (int lane = 0; lane < kHitLanes; ++lane) {
@@ -246,7 +251,7 @@ void AzimuthEdgeFilter::separate(const AnnulusRow& circle, std::span<EdgeHit> hi
   for (std::size_t i = 0; i + 1 < hits.size(); ++i)
     if (hits[i + 1].azimuth - hits[i].azimuth < reach) pairs_.push_back(static_cast<int>(i));
   for (std::size_t first = 0; first < pairs_.size(); first += kHitLanes)
-    part(std::span(pairs_).subspan(first, std::min<std::size_t>(kHitLanes, pairs_.size() - first)), width, hits.data());
+    part(std::span(pairs_).subspan(first, std::min<std::size_t>(kHitLanes, pairs_.size() - first)), width, hits);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (shifts_[i] == 0.0) continue;
     hits[i].azimuth -= static_cast<float>(shifts_[i]);
