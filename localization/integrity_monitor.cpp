@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "geometry/principal_axes.hpp"
+#include "localization/positive_definite.hpp"
 
 namespace credo::localization {
 namespace {
@@ -24,14 +25,6 @@ using StateVector = PoseState::Vector;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDetermined = 1e-9;  ///< of a determinant that is 1 where what is taken out said nothing
-
-/// Inverse of an information matrix; nothing where it is singular.
-bool invert(const StateMatrix& information, StateMatrix& covariance) {
-  const Eigen::LDLT<StateMatrix> decomposed(information);
-  if (decomposed.info() != Eigen::Success || !(decomposed.vectorD().minCoeff() > 0.0)) return false;
-  for (int i = 0; i < PoseState::kSize; ++i) covariance.col(i) = decomposed.solve(StateVector::Unit(i));
-  return true;
-}
 
 double largest_sigma(const Matrix3d& covariance) {
   return std::sqrt(std::max(0.0, geometry::largest_variance(covariance.topLeftCorner<2, 2>())));

@@ -17,20 +17,23 @@ namespace {
 class Tail {
  public:
   Tail() {
-    for (int i = 0; i <= kSteps; ++i) values_[static_cast<std::size_t>(i)] = std::exp(-0.5 * std::pow(i * kStep, 2));
+    for (std::size_t i = 0; i <= kSteps; ++i)
+      chords_[i].value = std::exp(-0.5 * std::pow(static_cast<double>(i) * kStep, 2));
+    for (std::size_t i = 0; i < kSteps; ++i) chords_[i].rise = chords_[i + 1].value - chords_[i].value;
   }
   double operator()(double x) const {
-    if (!(x > 0.0)) return 1.0;
-    const double at = x * (1.0 / kStep);
-    if (!(at < kSteps)) return values_[kSteps];
+    const double at = std::min(std::max(x * (1.0 / kStep), 0.0), static_cast<double>(kSteps));
     const auto i = static_cast<std::size_t>(at);
-    return values_[i] + (at - static_cast<double>(i)) * (values_[i + 1] - values_[i]);
+    return chords_[i].value + (at - static_cast<double>(i)) * chords_[i].rise;
   }
 
  private:
-  static constexpr int kSteps = 800;
+  static constexpr std::size_t kSteps = 800;
   static constexpr double kStep = 0.01;
-  std::array<double, kSteps + 1> values_{};
+  struct Chord {
+    double value = 0.0, rise = 0.0;
+  };
+  std::array<Chord, kSteps + 1> chords_{};
 };
 
 }  // namespace
