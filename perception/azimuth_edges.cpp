@@ -78,6 +78,14 @@ class Overlap {
   std::array<float, kSteps + 1> values_{};
 };
 
+/// The hit of a circle that follows one; the first follows the last.
+std::size_t next(std::span<const EdgeHit> hits, std::size_t hit) { return hit + 1 < hits.size() ? hit + 1 : 0; }
+
+double way_to_next(std::span<const EdgeHit> hits, std::size_t hit) {
+  const double way = hits[next(hits, hit)].azimuth - hits[hit].azimuth;
+  return hit + 1 < hits.size() ? way : way + geometry::kTurn;
+}
+
 double length(double a, double b) { return std::sqrt(a * a + b * b); }
 
 }  // namespace
@@ -220,9 +228,9 @@ void AzimuthEdgeFilter::part(std::span<const int> pairs, double width, std::span
   HitLanes apparent, a_height, b_height;
   for (int lane = 0; lane < kHitLanes; ++lane) {
     const auto i = static_cast<std::size_t>(pairs[std::min(lane, static_cast<int>(pairs.size()) - 1)]);
-    apparent[lane] = hits[i + 1].azimuth - hits[i].azimuth;
+    apparent[lane] = way_to_next(hits, i);
     a_height[lane] = hits[i].step;
-    b_height[lane] = hits[i + 1].step;
+    b_height[lane] = hits[next(hits, i)].step;
   }
   const HitLanes limit = 0.35 * apparent;
   HitLanes distance = apparent, shift_a, shift_b;
@@ -237,7 +245,7 @@ void AzimuthEdgeFilter::part(std::span<const int> pairs, double width, std::span
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
     const auto i = static_cast<std::size_t>(pairs[lane]);
     shifts_[i] += shift_a[static_cast<Eigen::Index>(lane)];
-    shifts_[i + 1] += shift_b[static_cast<Eigen::Index>(lane)];
+    shifts_[next(hits, i)] += shift_b[static_cast<Eigen::Index>(lane)];
   }
 }
 
@@ -248,8 +256,8 @@ void AzimuthEdgeFilter::separate(const AnnulusRow& circle, std::span<EdgeHit> hi
   const double reach = params_.neighbour_reach * width;
   shifts_.assign(hits.size(), 0.0);
   pairs_.clear();
-  for (std::size_t i = 0; i + 1 < hits.size(); ++i)
-    if (hits[i + 1].azimuth - hits[i].azimuth < reach) pairs_.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; hits.size() > 1 && i < hits.size(); ++i)
+    if (way_to_next(hits, i) < reach) pairs_.push_back(static_cast<int>(i));
   for (std::size_t first = 0; first < pairs_.size(); first += kHitLanes)
     part(std::span(pairs_).subspan(first, std::min<std::size_t>(kHitLanes, pairs_.size() - first)), width, hits);
   for (std::size_t i = 0; i < hits.size(); ++i) {
