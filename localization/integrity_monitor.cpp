@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "geometry/principal_axes.hpp"
+#include "localization/positive_definite.hpp"
 
 namespace credo::localization {
 namespace {
@@ -24,14 +25,6 @@ using StateVector = PoseState::Vector;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDetermined = 1e-9;  ///< of a determinant that is 1 where what is taken out said nothing
-
-/// Inverse of an information matrix; nothing where it is singular.
-bool invert(const StateMatrix& information, StateMatrix& covariance) {
-  const Eigen::LDLT<StateMatrix> decomposed(information);
-  if (decomposed.info() != Eigen::Success || !(decomposed.vectorD().minCoeff() > 0.0)) return false;
-  for (int i = 0; i < PoseState::kSize; ++i) covariance.col(i) = decomposed.solve(StateVector::Unit(i));
-  return true;
-}
 
 double largest_sigma(const Matrix3d& covariance) {
   return std::sqrt(std::max(0.0, geometry::largest_variance(covariance.topLeftCorner<2, 2>())));
@@ -325,8 +318,8 @@ Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const
   const auto levels = [&](double ProbabilityInterval::*end, double& position_m, double& heading_rad) {
     const double risk = 0.5 * params_.risk;  // for the position; as much for the heading
     using H = FaultHypothesis;
-    position_m = protection_level(hypotheses_, {end, &H::separation_m, &H::sigma_m}, risk, kFarthest_m);
-    heading_rad = protection_level(hypotheses_, {end, &H::separation_rad, &H::sigma_rad}, risk, std::numbers::pi);
+    position_m = protection_level_(hypotheses_, {end, &H::separation_m, &H::sigma_m}, risk, kFarthest_m);
+    heading_rad = protection_level_(hypotheses_, {end, &H::separation_rad, &H::sigma_rad}, risk, std::numbers::pi);
   };
   ProtectionLevels& protection = integrity.protection;
   levels(&ProbabilityInterval::low, protection.position_low_m, protection.heading_low_rad);

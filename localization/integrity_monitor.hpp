@@ -111,6 +111,7 @@ class IntegrityMonitor {
   std::vector<Landmark> landmarks_;
   std::vector<Eigen::Matrix<double, PoseState::kSize, 2>> by_landmark_;  ///< P H^T of each
   std::vector<FaultHypothesis> hypotheses_;
+  ProtectionLevel protection_level_;
 };
 
 }  // namespace credo::localization

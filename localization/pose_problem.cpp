@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "localization/positive_definite.hpp"
+
 namespace credo::localization {
 namespace {
 
@@ -16,24 +18,17 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// U, upper triangular, with U^T U = positive, so that |U e|^2 = e^T positive e. Cholesky's decomposition in plain
-/// numbers: Eigen's takes seconds to compile for each size. A pivot that is rounded below 0 is 0.
-template <int kRows>
-Eigen::Matrix<double, kRows, kRows> root(const Eigen::Matrix<double, kRows, kRows>& positive) {
-  Eigen::Matrix<double, kRows, kRows> U = Eigen::Matrix<double, kRows, kRows>::Zero();
-  for (int i = 0; i < kRows; ++i) {
-    for (int j = i; j < kRows; ++j) {
-      double rest = positive(i, j);
-      for (int k = 0; k < i; ++k) rest -= U(k, i) * U(k, j);
-      U(i, j) = i == j ? std::sqrt(std::max(0.0, rest)) : rest / U(i, i);
-    }
-  }
-  return U;
-}
-
 /// Squared residual per degree of freedom in standard deviations.
 double normalised_square(const Observation& o, const ResidualCovariance& covariance, const Vector2d& residual) {
   return residual.dot(covariance.whole().inverse() * residual) / o.dimension();
+}
+
+/// U, upper triangular, with U^T U = covariance^-1.
+Matrix2d whitener(const Matrix2d& covariance) {
+  const double sigma = std::sqrt(covariance(1, 1)), area = std::sqrt(covariance.determinant());
+  Matrix2d U;
+  U << covariance(1, 1), -covariance(0, 1), 0.0, area;
+  return U / (sigma * area);
 }
 
 /// What a step from the prior tells of the landmark's errors p: -(with_landmark)^T P^-1 step, for a pose that the plan
@@ -58,21 +53,6 @@ PoseState::Vector difference(const PoseState::Vector& a, const PoseState::Vector
   return step;
 }
 
-// One decomposition and one right-hand side at a time, as TinySolver does it: Eigen's general inverse takes long to
-// compile. Scaled to a unit diagonal beforehand, for metres stand beside milliradians.
-PoseState::Matrix inverse(const PoseState::Matrix& positive) {
-  const PoseState::Vector scale = positive.diagonal().cwiseSqrt().cwiseInverse();
-  const PoseState::Matrix scaled = scale.asDiagonal() * positive * scale.asDiagonal();
-  const Eigen::LDLT<PoseState::Matrix> decomposed(scaled);
-  PoseState::Matrix inverted;
-  for (int i = 0; i < PoseState::kSize; ++i) {
-    const PoseState::Vector unit = PoseState::Vector::Unit(i);
-    inverted.col(i) = decomposed.solve(unit);
-  }
-  const PoseState::Matrix unscaled = scale.asDiagonal() * inverted * scale.asDiagonal();
-  return 0.5 * (unscaled + unscaled.transpose());
-}
-
 double PosePrior::step_squared(const PoseState::Vector& x) const {
   const Vector3d step = difference(x, state).head<3>();
   return step.dot(pose->covariance().inverse() * step);
@@ -81,6 +61,7 @@ double PosePrior::step_squared(const PoseState::Vector& x) const {
 PoseProblem::PoseProblem() {
   constexpr std::size_t kUsualObservations = 256;
   terms_.reserve(kUsualObservations);
+  rows_.resize(2 * kUsualObservations, Eigen::NoChange);
 }
 
 void PoseProblem::take(const CalibratedPose& prior, const Matrix3d& carry, std::span<const Observation> observations) {
@@ -115,14 +96,14 @@ void PoseProblem::reweight(const PoseState::Vector& x, double scale, bool bounde
     term.by_step = term.by_landmark * term.landmark_by_step;
     const double cauchy = 1.0 / (1.0 + normalised_square(o, term.covariance, term.residual) / scale);
     term.weight = bounded ? cauchy * cauchy : cauchy;
-    term.whitener = root<2>(term.rest().inverse());
+    term.whitener = whitener(term.rest());
   }
 }
 
 void PoseProblem::trust_all() {
   for (ObservationTerm& term : terms_) {
     term.weight = 1.0;
-    term.whitener = root<2>(term.rest().inverse());
+    term.whitener = whitener(term.rest());
   }
 }
 
@@ -141,12 +122,16 @@ PoseProblem::Moments PoseProblem::moments_root(const PoseState::Vector& x) {
   const PoseState::Vector gradient = prior_.information * step;
   Moments moments;
   moments << prior_.information, gradient, gradient.transpose(), step.dot(gradient);
-  Eigen::Matrix<double, 2, PoseState::kSize + 1, Eigen::RowMajor> rows;  // [J e]
-  for (const ObservationTerm& term : terms_) {
-    rows << term.by_state + term.by_step, term.residual + term.by_step * step;
-    rows = term.whitener * rows;
-    moments.noalias() += rows.transpose() * rows;
+  const auto count = static_cast<Eigen::Index>(2 * terms_.size());
+  if (rows_.rows() < count) rows_.resize(count, Eigen::NoChange);
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    const ObservationTerm& term = terms_[k];
+    Eigen::Matrix<double, 2, PoseState::kSize + 1> raw;
+    raw << term.by_state + term.by_step, term.residual + term.by_step * step;
+    rows_.middleRows<2>(static_cast<Eigen::Index>(2 * k)) = term.whitener * raw;
   }
+  const auto rows = rows_.topRows(count);
+  moments.triangularView<Eigen::Upper>() += rows.transpose().lazyProduct(rows);
   return root<PoseState::kSize + 1>(moments);
 }
 

@@ -15,9 +15,6 @@ namespace credo::localization {
 /// a - b, the heading wrapped.
 [[nodiscard]] PoseState::Vector difference(const PoseState::Vector& a, const PoseState::Vector& b);
 
-/// Inverse of a positive definite matrix.
-[[nodiscard]] PoseState::Matrix inverse(const PoseState::Matrix& positive);
-
 /// What is known before an acquisition. The motion that the scan was carried over adds an error to it that is fresh in
 /// each acquisition, and gone in the next.
 struct PosePrior {
@@ -47,7 +44,7 @@ struct ObservationTerm {
   PoseState::Jacobian by_step = PoseState::Jacobian::Zero();  ///< of the residual, through what the step tells
   ResidualCovariance covariance;
   double weight = 1.0;                                 ///< of the robust loss
-  Eigen::Matrix2d whitener = Eigen::Matrix2d::Zero();  ///< root of the inverse of rest()
+  Eigen::Matrix2d whitener = Eigen::Matrix2d::Zero();  ///< U^T U = rest()^-1
 
   /// Covariance of the residual beside by_step * step.
   [[nodiscard]] Eigen::Matrix2d rest() const {
@@ -93,6 +90,7 @@ class PoseProblem {
   PosePrior prior_;
   std::span<const Observation> observations_;
   std::vector<ObservationTerm> terms_;
+  Eigen::Matrix<double, Eigen::Dynamic, PoseState::kSize + 1> rows_;  ///< [J e] of the observations, a workspace
   PoseState::Vector linearised_at_;
 };
 

@@ -13,6 +13,7 @@
 #include <span>
 
 #include "localization/pose_problem.hpp"
+#include "localization/positive_definite.hpp"
 
 namespace credo::localization {
 namespace {

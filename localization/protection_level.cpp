@@ -17,37 +17,47 @@ namespace {
 class Tail {
  public:
   Tail() {
-    for (int i = 0; i <= kSteps; ++i) values_[static_cast<std::size_t>(i)] = std::exp(-0.5 * std::pow(i * kStep, 2));
+    for (std::size_t i = 0; i <= kSteps; ++i)
+      chords_[i].value = std::exp(-0.5 * std::pow(static_cast<double>(i) * kStep, 2));
+    for (std::size_t i = 0; i < kSteps; ++i) chords_[i].rise = chords_[i + 1].value - chords_[i].value;
   }
   double operator()(double x) const {
-    if (!(x > 0.0)) return 1.0;
-    const double at = x / kStep;
-    if (!(at < kSteps)) return values_[kSteps];
+    const double at = std::min(std::max(x * (1.0 / kStep), 0.0), static_cast<double>(kSteps));
     const auto i = static_cast<std::size_t>(at);
-    return values_[i] + (at - static_cast<double>(i)) * (values_[i + 1] - values_[i]);
+    return chords_[i].value + (at - static_cast<double>(i)) * chords_[i].rise;
   }
 
  private:
-  static constexpr int kSteps = 800;
+  static constexpr std::size_t kSteps = 800;
   static constexpr double kStep = 0.01;
-  std::array<double, kSteps + 1> values_{};
+  struct Chord {
+    double value = 0.0, rise = 0.0;
+  };
+  std::array<Chord, kSteps + 1> chords_{};
 };
-
-/// Probability of an error above a level.
-double excess(std::span<const FaultHypothesis> hypotheses, const FaultComponent& of, double level) {
-  static const Tail tail;
-  double sum = 0.0;
-  for (const FaultHypothesis& h : hypotheses)
-    sum += h.probability.*of.end * tail((level - h.*of.separation) / h.*of.sigma);
-  return sum;
-}
 
 }  // namespace
 
-double protection_level(std::span<const FaultHypothesis> hypotheses, const FaultComponent& of, double risk,
-                        double most) {
+ProtectionLevel::ProtectionLevel() {
+  constexpr std::size_t kUsualHypotheses = 4096;
+  terms_.reserve(kUsualHypotheses);
+}
+
+/// Probability of an error above a level.
+double ProtectionLevel::excess(double level) const {
+  static const Tail tail;
+  double sum = 0.0;
+  for (const Term& term : terms_) sum += term.probability * tail((level - term.separation) * term.inverse_sigma);
+  return sum;
+}
+
+double ProtectionLevel::operator()(std::span<const FaultHypothesis> hypotheses, const FaultComponent& of, double risk,
+                                   double most) {
+  terms_.clear();
+  for (const FaultHypothesis& h : hypotheses)
+    terms_.push_back({h.probability.*of.end, h.*of.separation, 1.0 / h.*of.sigma});
   constexpr double kGrowth = 1.4, kPrecision = 0.02;
-  const auto log_excess = [&](double level) { return std::log(std::max(excess(hypotheses, of, level), 1e-300)); };
+  const auto log_excess = [&](double level) { return std::log(std::max(excess(level), 1e-300)); };
   const double target = std::log(risk);
   constexpr double kLeast = 1e-6;
   double low = 0.0, high = std::max(kLeast, 4.0 * hypotheses.front().*of.sigma);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace credo::localization {
 
@@ -27,10 +28,27 @@ struct FaultComponent {
   double FaultHypothesis::*sigma = &FaultHypothesis::sigma_m;
 };
 
-/// The smallest error that all hypotheses together exceed with a probability of at most `risk`, to 2 %: under each the
-/// error is the separation and a normal one. Infinity where `most` is exceeded more often.
-/// \param hypotheses  not empty; that of no fault is the first
-[[nodiscard]] double protection_level(std::span<const FaultHypothesis> hypotheses, const FaultComponent& of,
-                                      double risk, double most);
+/// Finds protection levels. Keeps its memory.
+class ProtectionLevel {
+ public:
+  ProtectionLevel();
+
+  /// The smallest error that all hypotheses together exceed with a probability of at most `risk`, to 2 %: under each
+  /// the error is the separation and a normal one. Infinity where `most` is exceeded more often.
+  /// \param hypotheses  not empty; that of no fault is the first
+  [[nodiscard]] double operator()(std::span<const FaultHypothesis> hypotheses, const FaultComponent& of, double risk,
+                                  double most);
+
+ private:
+  /// One component of a hypothesis; all of them lie close together, for they are summed up again and again.
+  struct Term {
+    double probability = 0.0;
+    double separation = 0.0;
+    double inverse_sigma = 0.0;
+  };
+  [[nodiscard]] double excess(double level) const;
+
+  std::vector<Term> terms_;
+};
 
 }  // namespace credo::localization

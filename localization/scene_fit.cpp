@@ -40,7 +40,8 @@ SceneFitter::SceneFitter(const LandmarkMap& map, const sensors::Rig& rig, const 
       solver_(params.solver),
       uncalibrated_(calibrated_pose(rig, {}, 2 * (map.junction_count() + map.landmark_count()))),
       scan_matcher_(map, params.scan) {
-  by_walls_.pose = start_ = uncalibrated_;  // memory for the plan's errors
+  by_walls_.solution.pose = by_walls_.pose = start_ = uncalibrated_;  // memory for the plan's errors
+  by_walls_.solution.prior_with_plan = uncalibrated_.with_plan;
   wall_in_use_.reserve(kUsual);
   unmatched_.reserve(kUsual);
   used_.reserve(kUsual);

@@ -4,6 +4,7 @@
 #include "perception/azimuth_edges.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -17,7 +18,6 @@ namespace {
 constexpr int kHitLanes = 8;  // hits that are reckoned side by side
 using HitLanes = Eigen::Array<double, kHitLanes, 1>;
 
-constexpr int kBlock = 16;          // columns that are skipped together where there is no extremum
 constexpr int kLargestTapSum = 32;  // keeps the answer to 255 * AnnulusTable::kScale within 16 bits
 constexpr double kMedianToSigma = 1.4826;
 // Independent pixel noise keeps about this share of its sigma when two rows of pixels are mixed by weights that take
@@ -37,10 +37,23 @@ void mark_extrema(const std::int16_t* response, int columns, std::int16_t least,
   }
 }
 
-bool any_of_block(const std::uint8_t* marks) {
-  std::array<std::uint64_t, kBlock / 8> words;
-  std::memcpy(words.data(), marks, kBlock);
-  return (words[0] | words[1]) != 0;
+std::int16_t largest(const std::int16_t* samples, int columns) {
+  std::int16_t found = 0;
+  for (int i = 0; i < columns; ++i) found = std::max(found, samples[i]);
+  return found;
+}
+
+/// The columns that are marked, growing. Most are not: eight are looked at together, the first in the lowest byte.
+/// \param columns  a multiple of 8
+/// \param marks    0 or 1
+template <class Visit>
+void for_each_mark(const std::uint8_t* marks, int columns, Visit&& visit) {
+  static_assert(std::endian::native == std::endian::little);
+  std::uint64_t word = 0;
+  for (int first = 0; first < columns; first += static_cast<int>(sizeof word)) {
+    std::memcpy(&word, marks + first, sizeof word);
+    for (; word != 0; word &= word - 1) visit(first + std::countr_zero(word) / 8);
+  }
 }
 
 /// exp(-x^2 / 2), looked up to 1e-4: how far the answers to two steps at a distance of x widths overlap.
@@ -64,6 +77,14 @@ class Overlap {
   static constexpr double kStep = 1.0 / 32.0;
   std::array<float, kSteps + 1> values_{};
 };
+
+/// The hit of a circle that follows one; the first follows the last.
+std::size_t next(std::span<const EdgeHit> hits, std::size_t hit) { return hit + 1 < hits.size() ? hit + 1 : 0; }
+
+double way_to_next(std::span<const EdgeHit> hits, std::size_t hit) {
+  const double way = hits[next(hits, hit)].azimuth - hits[hit].azimuth;
+  return hit + 1 < hits.size() ? way : way + geometry::kTurn;
+}
 
 double length(double a, double b) { return std::sqrt(a * a + b * b); }
 
@@ -185,14 +206,11 @@ void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixe
     const AnnulusRow& circle = table.rows()[row];
     const int columns = circle.columns;
     mark_extrema(response_.data() + kMargin, columns, least, marks_.data());
-    row_saturates_ =
-        *std::max_element(samples_.begin() + kMargin, samples_.begin() + kMargin + columns) > saturated_sample;
+    row_saturates_ = largest(samples_.data() + kMargin, columns) > saturated_sample;
     columns_.clear();
-    for (int block = 0; block < columns; block += kBlock) {
-      if (!any_of_block(marks_.data() + block)) continue;
-      for (int i = block; i < block + kBlock; ++i)
-        if (marks_[i] != 0 && usable(table, row, i)) columns_.push_back(i);
-    }
+    for_each_mark(marks_.data(), columns, [&](int column) {
+      if (usable(table, row, column)) columns_.push_back(column);
+    });
     const std::size_t before = hits.size();
     for (std::size_t first = 0; first < columns_.size(); first += kHitLanes)
       add_hits(circle, row,
@@ -205,14 +223,14 @@ void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixe
 /// a1 (m - x1) g(m - x1) + a2 (m - x2) g(m - x2) = 0, so m - x1 = (a2 / a1) d g(d) / g(m - x1) with d = x2 - m. To
 /// first order the last g is 1; the measured heights give a1, a2 by two linear equations with g(d).
 /// \param pairs  the first of two neighbouring hits each, at most kHitLanes
-void AzimuthEdgeFilter::part(std::span<const int> pairs, double width, const EdgeHit* hits) {
+void AzimuthEdgeFilter::part(std::span<const int> pairs, double width, std::span<const EdgeHit> hits) {
   static const Overlap overlap_at;
   HitLanes apparent, a_height, b_height;
   for (int lane = 0; lane < kHitLanes; ++lane) {
     const auto i = static_cast<std::size_t>(pairs[std::min(lane, static_cast<int>(pairs.size()) - 1)]);
-    apparent[lane] = hits[i + 1].azimuth - hits[i].azimuth;
+    apparent[lane] = way_to_next(hits, i);
     a_height[lane] = hits[i].step;
-    b_height[lane] = hits[i + 1].step;
+    b_height[lane] = hits[next(hits, i)].step;
   }
   const HitLanes limit = 0.35 * apparent;
   HitLanes distance = apparent, shift_a, shift_b;
@@ -227,7 +245,7 @@ void AzimuthEdgeFilter::part(std::span<const int> pairs, double width, const Edg
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
     const auto i = static_cast<std::size_t>(pairs[lane]);
     shifts_[i] += shift_a[static_cast<Eigen::Index>(lane)];
-    shifts_[i + 1] += shift_b[static_cast<Eigen::Index>(lane)];
+    shifts_[next(hits, i)] += shift_b[static_cast<Eigen::Index>(lane)];
   }
 }
 
@@ -238,10 +256,10 @@ void AzimuthEdgeFilter::separate(const AnnulusRow& circle, std::span<EdgeHit> hi
   const double reach = params_.neighbour_reach * width;
   shifts_.assign(hits.size(), 0.0);
   pairs_.clear();
-  for (std::size_t i = 0; i + 1 < hits.size(); ++i)
-    if (hits[i + 1].azimuth - hits[i].azimuth < reach) pairs_.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; hits.size() > 1 && i < hits.size(); ++i)
+    if (way_to_next(hits, i) < reach) pairs_.push_back(static_cast<int>(i));
   for (std::size_t first = 0; first < pairs_.size(); first += kHitLanes)
-    part(std::span(pairs_).subspan(first, std::min<std::size_t>(kHitLanes, pairs_.size() - first)), width, hits.data());
+    part(std::span(pairs_).subspan(first, std::min<std::size_t>(kHitLanes, pairs_.size() - first)), width, hits);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (shifts_[i] == 0.0) continue;
     hits[i].azimuth -= static_cast<float>(shifts_[i]);

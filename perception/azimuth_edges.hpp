@@ -66,7 +66,7 @@ class AzimuthEdgeFilter {
   [[nodiscard]] bool saturates(int column) const;
   void add_hits(const AnnulusRow& circle, int row, std::span<const int> columns, std::vector<EdgeHit>& hits) const;
   void separate(const AnnulusRow& circle, std::span<EdgeHit> hits);
-  void part(std::span<const int> pairs, double width, const EdgeHit* hits);
+  void part(std::span<const int> pairs, double width, std::span<const EdgeHit> hits);
 
   EdgeFilterParams params_;
   std::array<std::int16_t, kReach> taps_{};

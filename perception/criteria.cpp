@@ -66,10 +66,12 @@ void measure_points(std::span<const sensors::ScanPoint> points, const geometry::
   measures.mean_residual_sigmas = correction * fit.mean_residual_sigmas;
   if (fit.support == 0) return;
   // From the first to the last reading and half a beam at either side.
+  const DirectedLine directed = line;
   double spacing = 0.0;
   for (const sensors::ScanPoint& point : points)
-    spacing += predicted_range(point, line) * beam_increment / std::max(0.05, std::abs(line.normal().dot(point.ray)));
-  const double reach = std::abs(line.direction().dot(points.back().position - points.front().position));
+    spacing +=
+        predicted_range(point, directed) * beam_increment / std::max(0.05, std::abs(directed.normal.dot(point.ray)));
+  const double reach = std::abs(directed.direction.dot(points.back().position - points.front().position));
   measures.density_per_m = n / (reach + spacing / static_cast<double>(points.size()));
   measures.relative_density = measures.density_per_m * params.head_on_m * beam_increment;
 }

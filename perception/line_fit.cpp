@@ -107,16 +107,14 @@ void set_covariance(std::span<const ScanPoint> points, const PointNoise& noise, 
 
 }  // namespace
 
-double predicted_range(const ScanPoint& point, const LineEstimate& line) {
-  const Eigen::Vector2d normal = line.normal();
-  return range_on_line(point, normal, normal.dot(line.centroid));
+double predicted_range(const ScanPoint& point, const DirectedLine& line) {
+  return range_on_line(point, line.normal, line.normal.dot(line.estimate.centroid));
 }
 
-double residual_sigmas(const ScanPoint& point, const LineEstimate& line, const PointNoise& noise) {
-  const Eigen::Vector2d normal = line.normal();
-  const double offset = normal.dot(line.centroid);
-  return (normal.dot(point.position) - offset) /
-         std::sqrt(noise.variance_across(point.ray, range_on_line(point, normal, offset), normal));
+double residual_sigmas(const ScanPoint& point, const DirectedLine& line, const PointNoise& noise) {
+  const double offset = line.normal.dot(line.estimate.centroid);
+  return (line.normal.dot(point.position) - offset) /
+         std::sqrt(noise.variance_across(point.ray, range_on_line(point, line.normal, offset), line.normal));
 }
 
 LineFit judge_line(std::span<const ScanPoint> points, const LineEstimate& line, const PointNoise& noise) {
@@ -167,9 +165,10 @@ LineFit fit_line(std::span<const ScanPoint> points, const PointNoise& noise) {
   return fit;
 }
 
-double variance_at(const LineEstimate& line, const Eigen::Vector2d& point) {
-  const double s = line.direction().dot(point - line.centroid);
-  return line.sigma_across * line.sigma_across + s * s * line.sigma_angle * line.sigma_angle;
+double variance_at(const DirectedLine& line, const Eigen::Vector2d& point) {
+  const LineEstimate& e = line.estimate;
+  const double s = line.direction.dot(point - e.centroid);
+  return e.sigma_across * e.sigma_across + s * s * e.sigma_angle * e.sigma_angle;
 }
 
 std::optional<PointEstimate> intersect(const LineEstimate& first, const LineEstimate& second, double min_sine) {

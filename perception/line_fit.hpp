@@ -36,6 +36,15 @@ struct PointNoise {
   }
 };
 
+/// A line whose sine and cosine are taken once, for many points that are held against it.
+struct DirectedLine {
+  DirectedLine(const geometry::LineEstimate& line)  // NOLINT: a line is one
+      : estimate(line), direction(line.direction()), normal(-direction.y(), direction.x()) {}
+
+  geometry::LineEstimate estimate;
+  Eigen::Vector2d direction, normal;
+};
+
 /// A line through range points and how well it explains them.
 struct LineFit {
   geometry::LineEstimate line;
@@ -57,15 +66,15 @@ struct LineFit {
                                  const PointNoise& noise);
 
 /// Residual of one point across a line, in expected standard deviations; signed along the line's normal.
-[[nodiscard]] double residual_sigmas(const sensors::ScanPoint& point, const geometry::LineEstimate& line,
+[[nodiscard]] double residual_sigmas(const sensors::ScanPoint& point, const DirectedLine& line,
                                      const PointNoise& noise);
 
 /// Range at which the point's beam meets the line; the measured one if it meets it grazing or not within half and twice
 /// that.
-[[nodiscard]] double predicted_range(const sensors::ScanPoint& point, const geometry::LineEstimate& line);
+[[nodiscard]] double predicted_range(const sensors::ScanPoint& point, const DirectedLine& line);
 
 /// Variance across the line of the line's own position beside a point. [m^2]
-[[nodiscard]] double variance_at(const geometry::LineEstimate& line, const Eigen::Vector2d& point);
+[[nodiscard]] double variance_at(const DirectedLine& line, const Eigen::Vector2d& point);
 
 /// A point with the covariance of its error. [m, m^2]
 struct PointEstimate {

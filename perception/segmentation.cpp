@@ -26,8 +26,8 @@ double median_of_three(double a, double b, double c) { return std::max(std::min(
 double chi2_of_own_line(const LineFit& fit, int size) { return std::min(fit.chi2, 10.0 + 2.0 * size); }
 
 /// Distance along the line from one beam to the next.
-double spacing_at(const ScanPoint& point, const LineEstimate& line, double increment, double min_sine) {
-  return predicted_range(point, line) * increment / std::max(min_sine, std::abs(line.normal().dot(point.ray)));
+double spacing_at(const ScanPoint& point, const DirectedLine& line, double increment, double min_sine) {
+  return predicted_range(point, line) * increment / std::max(min_sine, std::abs(line.normal.dot(point.ray)));
 }
 
 }  // namespace
@@ -141,11 +141,10 @@ void Segmenter::split(const Points& points, int first, int last) {
 }
 
 /// How a reading fits a line whose own error counts.
-Segmenter::Misfit Segmenter::misfit(const ScanPoint& point, const LineEstimate& line) const {
+Segmenter::Misfit Segmenter::misfit(const ScanPoint& point, const DirectedLine& line) const {
   const double most = noise_.params.no_weight_from * noise_.params.no_weight_from;
-  const Eigen::Vector2d normal = line.normal();
-  const double residual = normal.dot(point.position - line.centroid);
-  const double own = noise_.variance_across(point.ray, predicted_range(point, line), normal);
+  const double residual = line.normal.dot(point.position - line.estimate.centroid);
+  const double own = noise_.variance_across(point.ray, predicted_range(point, line), line.normal);
   const double variance = own + variance_at(line, point.position);
   return {std::min(most, residual * residual / variance), std::log(variance / own)};
 }
@@ -164,7 +163,8 @@ double Segmenter::merge_cost(const Points& points, const Piece& a, const Piece& 
   if (std::min(a.size(), b.size()) < kRoughAngle) {
     const Piece &few = a.size() < b.size() ? a : b, &many = a.size() < b.size() ? b : a;
     double growth = -chi2_of_own_line(few.fit, few.size());
-    for (int k = few.first; k <= few.last; ++k) growth += misfit(points[k], many.fit.line).chi2;
+    const DirectedLine line = many.fit.line;
+    for (int k = few.first; k <= few.last; ++k) growth += misfit(points[k], line).chi2;
     return growth;
   }
   const LineEstimate &one = a.fit.line, &two = b.fit.line;
@@ -222,10 +222,11 @@ void Segmenter::merge(const Points& points) {
 /// and with the logarithm, or the vaguer line would explain more.
 Segmenter::Boundary Segmenter::boundary(const Points& points, const Piece& a, const Piece& b, int first,
                                         int last) const {
+  const DirectedLine line_a = a.fit.line, line_b = b.fit.line;
   Boundary best{.last_of_a = first - 1, .chi2 = 0.0};
   double balance = 0.0, least = 0.0, chi2 = 0.0, chi2_at_best = 0.0;
   for (int k = first; k <= last; ++k) {
-    const Misfit to_a = misfit(points[k], a.fit.line), to_b = misfit(points[k], b.fit.line);
+    const Misfit to_a = misfit(points[k], line_a), to_b = misfit(points[k], line_b);
     best.chi2 += to_b.chi2;
     chi2 += to_a.chi2 - to_b.chi2;
     balance += to_a.chi2 + to_a.log_vagueness - to_b.chi2 - to_b.log_vagueness;
@@ -302,15 +303,16 @@ void Segmenter::keep_lines(const Points& points, std::vector<RangeSegment>& segm
   const double outlier = noise_.params.no_weight_from;
   for (const Piece& piece : pieces_) {
     RangeSegment segment{.first = piece.first, .last = piece.last, .fit = piece.fit};
-    const LineEstimate& line = segment.fit.line;
+    const DirectedLine line = segment.fit.line;
     const auto strays = [&](int k) { return std::abs(residual_sigmas(points[k], line, noise_)) >= outlier; };
     while (segment.first < segment.last && strays(segment.first)) ++segment.first;
     while (segment.last > segment.first && strays(segment.last)) --segment.last;
     if (segment.fit.support < params_.min_support) continue;
     double sine = 0.0;
-    for (int k = segment.first; k <= segment.last; ++k) sine += std::abs(line.normal().dot(points[k].ray));
+    for (int k = segment.first; k <= segment.last; ++k) sine += std::abs(line.normal.dot(points[k].ray));
     if (sine < params_.min_sine * (segment.last - segment.first + 1)) continue;
-    segment.extent = {line.foot_of(points[segment.first].position), line.foot_of(points[segment.last].position)};
+    segment.extent = {piece.fit.line.foot_of(points[segment.first].position),
+                      piece.fit.line.foot_of(points[segment.last].position)};
     if (segment.extent.length() < 1e-6) continue;
     segment.spacing_a = spacing_at(points[segment.first], line, increment_, params_.min_sine);
     segment.spacing_b = spacing_at(points[segment.last], line, increment_, params_.min_sine);

@@ -113,7 +113,7 @@ class Segmenter {
     double chi2 = 0.0;           ///< squared residual in expected standard deviations; at most that of an outlier
     double log_vagueness = 0.0;  ///< of the variance with the line's error to that without
   };
-  [[nodiscard]] Misfit misfit(const sensors::ScanPoint& point, const geometry::LineEstimate& line) const;
+  [[nodiscard]] Misfit misfit(const sensors::ScanPoint& point, const DirectedLine& line) const;
   [[nodiscard]] double merge_cost(const Points& points, const Piece& a, const Piece& b) const;
   struct Beside {
     SegmentEnd end = SegmentEnd::kUnseen;

@@ -173,6 +173,22 @@ TEST(RadialLines, NarrowBarKeepsItsWidth) {
   EXPECT_NEAR(nearest(seen, 3.02, -1).azimuth, 3.02, to_radians(0.05));
 }
 
+TEST(RadialLines, EdgesWhereAzimuthsBeginAnewAreAsSureAsElsewhere) {
+  // Half a column before azimuth 0 the first extremum of a circle lies behind its last column.
+  sensors::OmniCamera camera = test_camera();
+  camera.azimuth_zero_rad += 0.4;  // azimuth 0 lies along no row of pixels
+  for (const double azimuth : {-0.002, -0.001, -0.0005, 0.0}) {
+    const AnnulusScene scene{.patches = {{azimuth, azimuth + 0.02, 180.0}, {1.0 + azimuth, 1.02 + azimuth, 180.0}}};
+    const Scene seen = look(camera, render(camera, scene));
+    for (const auto& [at, polarity] : {TrueEdge{azimuth, 1}, TrueEdge{azimuth + 0.02, -1}}) {
+      const RadialLine here = nearest(seen, at, polarity), there = nearest(seen, 1.0 + at, polarity);
+      EXPECT_NEAR(angle_difference(here.azimuth, at), angle_difference(there.azimuth, 1.0 + at), 8e-4) << azimuth;
+      EXPECT_LT(here.sigma, 1.1 * there.sigma) << azimuth;
+      EXPECT_GT(here.visible_share, there.visible_share - 0.03) << azimuth;
+    }
+  }
+}
+
 TEST(RadialLines, TiltIsLearnedAndBendsShortLinesUpright) {
   std::vector<TrueEdge> truth;
   AnnulusScene scene = sectors(21, truth);
