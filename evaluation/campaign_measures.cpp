@@ -145,6 +145,13 @@ void add_integrity(const Group& group, const SummaryParams& params, Measures& me
       {"wrong_matches", "", "of the matches that poses rest on"}, group.rows,
       [](const CampaignRow& row) { return static_cast<double>(row.matches.total().wrong); },
       [](const CampaignRow& row) { return static_cast<double>(row.matches.total().matches); });
+  Proportion together;
+  for (const ClusteredRow& r : group.rows)
+    if (!is_alert(r.row->sample) && r.row->matches.total().matches > 0)
+      together.add(r.row->matches.points().wrong >= localization::kPointsTogether);
+  measures.proportion_of(
+      {"points_together", "", fmt::format("of the localized: {} wrong points and more", localization::kPointsTogether)},
+      together);
   const ClusteredValues beliefs = values_of(
       group.absolute, [](const CampaignRow& row) { return row.sample.localization.belief.pignistic(); },
       [&](const CampaignRow& row) { return !is_lost(row.sample, w); });

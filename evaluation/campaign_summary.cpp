@@ -58,7 +58,7 @@ GroupSummary summarise_group(std::string name, const std::string& wanted, std::s
     group.acquisitions += static_cast<long>(run.rows.size());
     for (const CampaignRow& row : run.rows) {
       group.misleading += is_misleading(row.sample, params.words) ? 1 : 0;
-      group.matches += row.matches;
+      if (!is_alert(row.sample)) group.matches += row.matches;
     }
   }
   group.measures = measures_of(members, params);

@@ -39,7 +39,9 @@ struct GroupSummary {
   int refused = 0;  ///< whose world could not be made
   long acquisitions = 0;
   long misleading = 0;         ///< acquisitions
-  ClassedMatchCounts matches;  ///< that poses rest on: what the fault priors of the integrity monitor are measured by
+  /// Those that poses rest on whose status is localized: what the fault priors of the integrity monitor are measured by.
+  /// Elsewhere something else than the monitor speaks against the pose.
+  ClassedMatchCounts matches;
   std::vector<Measure> measures;
 
   /// By its name. Precondition: there is one.

@@ -63,6 +63,13 @@ MatchCounts ClassedMatchCounts::total() const {
   return sum;
 }
 
+MatchCounts ClassedMatchCounts::points() const {
+  MatchCounts sum;
+  for (std::size_t i = 0; i < classes.size(); ++i)
+    if (i != localization::kWallFaultClass) sum += classes[i];
+  return sum;
+}
+
 ClassedMatchCounts& ClassedMatchCounts::operator+=(const ClassedMatchCounts& other) {
   for (std::size_t i = 0; i < classes.size(); ++i) classes[i] += other.classes[i];
   return *this;

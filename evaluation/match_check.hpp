@@ -48,6 +48,8 @@ struct ClassedMatchCounts {
   std::array<MatchCounts, localization::kFaultClasses> classes{};
 
   [[nodiscard]] MatchCounts total() const;
+  /// All but the walls.
+  [[nodiscard]] MatchCounts points() const;
   ClassedMatchCounts& operator+=(const ClassedMatchCounts& other);
 };
 

@@ -57,6 +57,11 @@ ProbabilityInterval at_least(int faults, const ProbabilityInterval& expected) {
   return {std::pow(expected.low, faults) / below, std::min(1.0, std::pow(expected.high, faults) / below)};
 }
 
+/// One or the other, or both: at most their sum.
+ProbabilityInterval either(const ProbabilityInterval& a, const ProbabilityInterval& b) {
+  return {std::min(1.0, a.low + b.low), std::min(1.0, a.high + b.high)};
+}
+
 ProbabilityInterval both(const ProbabilityInterval& a, const ProbabilityInterval& b) {
   return {a.low * b.low, a.high * b.high};
 }
@@ -270,7 +275,7 @@ void IntegrityMonitor::add_points(const PoseSolution& solution) {
   for (const Landmark& landmark : landmarks_)
     if (!landmark.wall) leave_out(landmark, information, gradient);
   const ProbabilityInterval points = expected_faults(false);
-  add_without(information, gradient, at_least(3, points));
+  add_without(information, gradient, either(at_least(kPointsTogether, points), params_.points_together));
   for (const Landmark& landmark : landmarks_) {
     if (!landmark.wall) continue;
     StateMatrix without_wall = information;
@@ -291,7 +296,7 @@ void IntegrityMonitor::add_all(const PoseSolution& solution) {
 }
 
 Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const double> beliefs,
-                                   std::span<const Alias> aliases) {
+                                   double variance_factor, std::span<const Alias> aliases) {
   constexpr double kFarthest_m = 100.0;
   Integrity integrity;
   hypotheses_.clear();
@@ -307,9 +312,10 @@ Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const
     add_instruments(solution, covariance, integrity);
     add_prediction(solution, covariance, integrity);
   }
+  const double widened = params_.sigma_overbound * std::sqrt(std::max(1.0, variance_factor));
   for (FaultHypothesis& h : hypotheses_) {
-    h.sigma_m *= params_.sigma_overbound;
-    h.sigma_rad *= params_.sigma_overbound;
+    h.sigma_m *= widened;
+    h.sigma_rad *= widened;
   }
   constexpr double kExactly = 1e-3;
   for (const Alias& alias : aliases)

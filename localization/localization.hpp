@@ -47,6 +47,7 @@ struct Localization {
   double innovation = 0.0;          ///< squared Mahalanobis distance of the pose from where the wheels led it
   bool unrecognised = false;        ///< much of what the plan has in sight is not seen
   bool off_plan = false;            ///< much of the scan does not lie on the plan
+  bool inconsistent = false;        ///< landmarks contradict each other
   bool contradicted = false;        ///< camera, range finder and wheels do not agree
   bool doubted = false;    ///< lately the plan did not look as it should, and nothing has confirmed the pose since
   bool elsewhere = false;  ///< another pose is far more plausible

@@ -56,52 +56,74 @@ evidence::FusedBinaryMass localization_belief(const LocalizationEvidence& eviden
   return fused.value_or(evidence::FusedBinaryMass{BinaryMass::vacuous(), 1.0});
 }
 
-void judge(Localization& localization, bool camera_seen, bool range_finder_seen, const StatusParams& params) {
-  const Eigen::Matrix3d& P = localization.estimate.covariance;
-  const double sigma = std::sqrt(geometry::largest_variance(P.topLeftCorner<2, 2>()));
-  const BinaryMass& belief = localization.belief;
-  localization.reason.clear();
-  const auto because = [&localization](const char* words) {
-    if (!localization.reason.empty()) localization.reason += "; ";
-    localization.reason += words;
-  };
-  if (!camera_seen) because("camera dark or missing");
-  if (!range_finder_seen) because("range finder missing");
-  if (localization.detected == 0)
-    because("nothing is seen: the pose is predicted");
-  else if (localization.matched == 0)
-    because("nothing matches the plan: the pose is predicted");
-  else if (localization.matched < 3)
-    because("few landmarks");
-  if (belief.no > belief.yes) because("more speaks against the pose than for it");
-  if (localization.unrecognised) because("landmarks that should be in sight are not seen");
-  if (localization.off_plan) because("the scan does not lie on the plan");
-  if (localization.contradicted) because("camera, range finder and wheels contradict each other");
-  if (localization.doubted && !localization.unrecognised && !localization.off_plan && !localization.contradicted)
-    because("just doubted, and not confirmed yet");
-  if (localization.elsewhere) because("another pose fits far better");
-  // Written so that what is not a number fails.
-  const bool position_known = sigma <= params.max_position_sigma_m;
-  const bool heading_known = std::sqrt(P(2, 2)) <= params.max_heading_sigma_rad;
-  if (!position_known) because("position too uncertain");
-  if (!heading_known) because("heading too uncertain");
-  const ProtectionLevels& levels = localization.protection;
-  const bool guarded =
-      !(levels.position_high_m > params.max_protection_m) && !(levels.heading_high_rad > params.max_protection_rad);
-  if (!guarded) because("if one of few landmarks is wrong, so is the pose");
-  const bool predicted = localization.innovation <= params.max_innovation;
-  if (!predicted) because("the pose contradicts its prediction");
+namespace {
 
+/// Which limits of StatusParams the localization keeps. Written so that what is not a number fails.
+struct Limits {
+  Limits(const Localization& localization, const StatusParams& params) {
+    const Eigen::Matrix3d& P = localization.estimate.covariance;
+    const ProtectionLevels& levels = localization.protection;
+    position_known = std::sqrt(geometry::largest_variance(P.topLeftCorner<2, 2>())) <= params.max_position_sigma_m;
+    heading_known = std::sqrt(P(2, 2)) <= params.max_heading_sigma_rad;
+    // No monitor has looked where a level is not a number.
+    guarded =
+        !(levels.position_high_m > params.max_protection_m) && !(levels.heading_high_rad > params.max_protection_rad);
+    as_predicted = localization.innovation <= params.max_innovation;
+    believed = localization.belief.yes > params.min_belief_yes;
+  }
+  [[nodiscard]] bool all_kept() const { return position_known && heading_known && guarded && as_predicted && believed; }
+
+  bool position_known, heading_known, guarded, as_predicted, believed;
+};
+
+bool is_contested(const Localization& localization) {
+  return localization.unrecognised || localization.off_plan || localization.inconsistent || localization.contradicted;
+}
+
+const char* too_little_seen(const Localization& localization) {
+  if (localization.detected == 0) return "nothing is seen: the pose is predicted";
+  if (localization.matched == 0) return "nothing matches the plan: the pose is predicted";
+  return localization.matched < 3 ? "few landmarks" : nullptr;
+}
+
+/// All that speaks against the pose or for caution, joined by "; ".
+std::string reasons(const Localization& localization, const Limits& limits, bool camera_seen, bool range_finder_seen) {
+  std::string text;
+  const auto say = [&text](bool holds, const char* words) {
+    if (!holds) return;
+    if (!text.empty()) text += "; ";
+    text += words;
+  };
+  say(!camera_seen, "camera dark or missing");
+  say(!range_finder_seen, "range finder missing");
+  if (const char* words = too_little_seen(localization)) say(true, words);
+  say(localization.belief.no > localization.belief.yes, "more speaks against the pose than for it");
+  say(localization.unrecognised, "landmarks that should be in sight are not seen");
+  say(localization.off_plan, "the scan does not lie on the plan");
+  say(localization.inconsistent, "landmarks contradict each other");
+  say(localization.contradicted, "camera, range finder and wheels contradict each other");
+  say(localization.doubted && !is_contested(localization), "just doubted, and not confirmed yet");
+  say(localization.elsewhere, "another pose fits far better");
+  say(!limits.position_known, "position too uncertain");
+  say(!limits.heading_known, "heading too uncertain");
+  say(!limits.guarded, "if one of few landmarks is wrong, so is the pose");
+  say(!limits.as_predicted, "the pose contradicts its prediction");
+  say(localization.hypotheses.size() > 1, "several poses fit: a place that looks like others");
+  return text;
+}
+
+}  // namespace
+
+void judge(Localization& localization, bool camera_seen, bool range_finder_seen, const StatusParams& params) {
+  const Limits limits(localization, params);
+  localization.reason = reasons(localization, limits, camera_seen, range_finder_seen);
   if (localization.hypotheses.size() > 1) {
-    because("several poses fit: a place that looks like others");
     localization.status = Status::kAmbiguous;
-  } else if (belief.no > belief.yes || localization.elsewhere) {
+  } else if (localization.belief.no > localization.belief.yes || localization.elsewhere) {
     localization.status = Status::kLost;
-  } else if (localization.matched == 0 || localization.unrecognised || localization.off_plan ||
-             localization.contradicted || localization.doubted || !(belief.yes > params.min_belief_yes) ||
-             !position_known || !heading_known || !guarded || !predicted) {
+  } else if (localization.matched == 0 || is_contested(localization) || localization.doubted || !limits.all_kept()) {
     localization.status = Status::kUncertain;
-    if (localization.reason.empty()) because("belief is weak");
+    if (localization.reason.empty()) localization.reason = "belief is weak";
   } else {
     localization.status = Status::kLocalized;
     localization.reason.clear();

@@ -112,6 +112,7 @@ LocalizationEvidence gather_evidence(const Scene& scene, const LandmarkMap& map,
                                      const LocalizationEvidenceParams& params) {
   LocalizationEvidence evidence;
   evidence.camera_seen = scene.camera_seen;
+  evidence.range_finder_seen = scene.range_finder_seen;
   count_points_in_sight(scene, map, observations, solution, params, evidence);
   const geometry::PoseEstimate estimate = solution.estimate();
   for (std::size_t p = 0; p < scene.primitives.size(); ++p) {

@@ -26,6 +26,7 @@ struct LocalizationEvidence {
   /// too few are cast, and under the paper's method.
   std::optional<double> bearing_agreement;
   bool camera_seen = false;  ///< it says something, be it too little to tell the heading
+  bool range_finder_seen = false;
   /// Integrity::separation; nothing for few landmarks, and under the paper's method.
   std::optional<double> separation;
   std::span<const tracking::Track> tracks;

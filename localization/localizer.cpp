@@ -37,6 +37,7 @@ Localizer::State::State(const geometry::FloorPlan& plan, const sensors::Rig& ins
       fitter(map, instruments, params.fit),
       tracker(params.tracker),
       labels(map, params.contradictions_allowed),
+      misfit(params.misfit),
       monitor(wall_footprints(map), params.integrity),
       modules(map, params.integrity),
       search(map, fitter.scan_matcher().field(), rig, params.search),
@@ -225,7 +226,8 @@ Integrity Localizer::State::watch() {
         std::find_if(tracker.tracks().begin(), tracker.tracks().end(), [id](const Track& t) { return t.id == id; });
     landmark_beliefs.push_back(track == tracker.tracks().end() ? kUntracked : track->existence.pignistic());
   }
-  return monitor.assess(fit.solution, landmark_beliefs, modules.find(fit.observations, fit.solution));
+  return monitor.assess(fit.solution, landmark_beliefs, misfit.variance_factor(),
+                        modules.find(fit.observations, fit.solution));
 }
 
 /// Belief and status of an absolute pose.
@@ -235,6 +237,9 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   fix.matched = matched_before = evidence.matched;
   std::optional<Integrity> integrity;
   if (params.method == perception::Method::kDefault) {
+    misfit.add(fit.observations, fit.solution);
+    fix.inconsistent = misfit.contradicting();
+    fix.estimate.covariance *= misfit.variance_factor();
     integrity = watch();
     fix.protection = integrity->protection;
     if (integrity->landmarks >= params.belief.least_in_sight) evidence.separation = integrity->separation;
@@ -245,7 +250,7 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
     widen(fit.pose, doubt());
     fix.estimate.covariance += doubt();
   }
-  trust.go_on_from(fit.estimate());
+  trust.go_on_from(fix.estimate);
   judge(fix, scene.camera_seen, scene.range_finder_seen, params.status);
 }
 

@@ -11,6 +11,7 @@
 #include "localization/integrity_monitor.hpp"
 #include "localization/localization.hpp"
 #include "localization/localization_belief.hpp"
+#include "localization/misfit.hpp"
 #include "localization/motion_prediction.hpp"
 #include "localization/pose_hypotheses.hpp"
 #include "localization/pose_trust.hpp"
@@ -26,6 +27,7 @@ struct LocalizerParams {
   LandmarkMapParams map;
   SceneFitParams fit;
   LocalizationBeliefParams belief;
+  MisfitParams misfit;
   IntegrityParams integrity;
   GlobalSearchParams search;
   PoseHypothesesParams hypotheses;

@@ -26,6 +26,7 @@ struct Localizer::State {
   SceneFitter fitter;
   tracking::Tracker tracker;
   TrackLabels labels;
+  Misfit misfit;
   IntegrityMonitor monitor;
   RepeatedModules modules;
   GlobalSearch search;

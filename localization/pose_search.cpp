@@ -54,7 +54,8 @@ void Localizer::State::search_pose(const Scene& scene, bool odometry) {
   if (match_anew(scene, wide) || odometry) return;
   const double turn = params.unforeseen_turn_sigma_rad;
   widen(wide, Eigen::Vector3d(0.0, 0.0, turn * turn).asDiagonal());
-  match_anew(scene, wide);
+  // Without wheels nothing but what goes on to be matched tells that the robot has not turned round.
+  if (!match_anew(scene, wide) && lost_sight) jumped = true;
 }
 
 /// Matches everything from the pose that the scan fits best about an expected one.
@@ -108,6 +109,7 @@ void Localizer::State::look_elsewhere(const Scene& scene, const PoseEstimate& mo
 void Localizer::State::go_to(const SceneFit& found) {
   fit = found;
   labels.forget_all(tracker);
+  misfit = Misfit(params.misfit);
   absolute = found_elsewhere = true;
   doubted = 0;
   trust.found(fit.estimate());

@@ -18,9 +18,13 @@ struct PoseTrustParams {
   int checked_for = 3;                  ///< so many acquisitions a scan that lay on the plan vouches for;
   double unchecked_reliability = 0.75;  ///< of the belief after that: nothing but what was matched speaks for the pose
   double blind_reliability = 0.8;       ///< of the last belief where nothing at all is seen
-  int borne_out_after = 2;              ///< acquisitions in which the camera alone sees the plan under the heading, or
-  int borne_out_blind_after = 5;        ///< so many without doubt where there is no camera
-  int trusted_again_after = 2;          ///< acquisitions without doubt after one with, until the pose is trusted again
+  /// A pose that has strayed from where the wheels have led is back there below this squared Mahalanobis distance,
+  /// though what is foreseen becomes ever less certain: chi-square with 3 degrees of freedom at 10 %.
+  double returned_innovation = 6.25;
+  int borne_out_after = 2;            ///< acquisitions in which the camera alone sees the plan under the heading, or
+  int borne_out_blind_after = 5;      ///< so many without doubt where there is no camera
+  int trusted_again_after = 2;        ///< acquisitions without doubt after one with, until the pose is trusted again,
+  int trusted_again_alone_after = 5;  ///< or so many where the camera or the range finder is alone
 };
 
 /// What speaks for a pose and against it beyond one acquisition. One wrong match makes a wrong pose, from which more is
@@ -53,6 +57,7 @@ class PoseTrust {
 
  private:
   [[nodiscard]] bool borne_out(const LocalizationEvidence& evidence);
+  [[nodiscard]] bool recovering(const LocalizationEvidence& evidence) const;
   [[nodiscard]] evidence::FusedBinaryMass believe(const LocalizationEvidence& evidence,
                                                   const evidence::BinaryMass& before, bool blind) const;
 
@@ -61,6 +66,7 @@ class PoseTrust {
   PoseTrustParams params_;
   geometry::PoseEstimate reckoned_;  ///< where the wheels have brought the robot since its pose was last borne out
   bool in_place_ = true;             ///< the pose is where the wheels have led, or else the camera bears it out
+  bool strayed_ = false;             ///< the pose has left where the wheels lead, and nothing has borne it out
   bool unconfirmed_ = false;         ///< the pose has jumped, and no search has confirmed it yet
   int borne_out_ = 0;     ///< acquisitions in a row in which the camera alone saw the plan under the pose's heading
   int undoubted_ = 1000;  ///< acquisitions in a row in which nothing spoke against the pose; at the start it was given

@@ -98,6 +98,17 @@ TEST(CampaignSummary, CountsMatchesByClassInEveryGroup) {
   EXPECT_EQ(summary.groups[2].matches.classes.back(), MatchCounts{});
 }
 
+TEST(CampaignSummary, CountsFaultsWhereNothingElseSpeaksAgainstThePose) {
+  CampaignRow trusted = row(0.0), doubted = row(0.0), together = row(0.0);
+  trusted.matches.classes = {{{.matches = 9, .wrong = 2}}};
+  together.matches.classes = {{{.matches = 4, .wrong = 2}, {.matches = 4, .wrong = 1}}};
+  doubted.matches.classes = {{{.matches = 5, .wrong = 5}}};
+  doubted.sample.localization.status = localization::Status::kUncertain;
+  const std::vector runs{run_of(1, {trusted, together, doubted, doubted, row(0.0)})};
+  EXPECT_EQ(summarise(kSpec, runs).groups[0].matches.total(), (MatchCounts{.matches = 17, .wrong = 5}));
+  EXPECT_DOUBLE_EQ(value_of(runs, "points_together").value(), 0.5);
+}
+
 TEST(CampaignSummary, AKidnappedRobotMustNoticeAndRecover) {
   const CampaignRow away = row(2.0), lost = row(2.0, Status::kLost), right = row(0.0);
   const auto kidnapped = with_event(away, kKidnapped);

@@ -64,18 +64,20 @@ class Monitor : public ::testing::Test {
  protected:
   Integrity assess(const std::vector<Observation>& seen, double belief = 0.9, std::span<const Alias> aliases = {}) {
     solution_ = PoseSolver().solve(prior_, seen);
-    return IntegrityMonitor({}, params_).assess(solution_, std::vector<double>(seen.size(), belief), aliases);
+    return IntegrityMonitor({}, params_)
+        .assess(solution_, std::vector<double>(seen.size(), belief), variance_factor_, aliases);
   }
   [[nodiscard]] double position_error() const { return solution_.pose.pose.translation().norm(); }
 
   IntegrityParams params_;
+  double variance_factor_ = 1.0;
   CalibratedPose prior_ = prediction(0.1, 0.05);
   PoseSolution solution_;
 };
 
 TEST_F(Monitor, WithoutFaultsTheLevelIsTheGaussianOne) {
   params_.point_faults.fill({0.0, {0.0, 0.0}});
-  params_.instrument_fault = params_.prediction_fault = {0.0, 0.0};
+  params_.points_together = params_.instrument_fault = params_.prediction_fault = {0.0, 0.0};
   params_.sigma_overbound = 1.0;
   const Integrity integrity = assess(surroundings(6, 6));
   const double sigma = std::sqrt(solution_.pose.covariance()(0, 0));
@@ -85,6 +87,16 @@ TEST_F(Monitor, WithoutFaultsTheLevelIsTheGaussianOne) {
               0.05 * k * std::sqrt(solution_.pose.covariance()(2, 2)));
   EXPECT_EQ(integrity.protection.position_low_m, integrity.protection.position_high_m);
   EXPECT_EQ(integrity.landmarks, 12);
+}
+
+TEST_F(Monitor, TheLevelGrowsWithTheMisfitAndDoesNotShrinkWithIt) {
+  params_.point_faults.fill({0.0, {0.0, 0.0}});
+  params_.points_together = params_.instrument_fault = params_.prediction_fault = {0.0, 0.0};
+  const double usual = assess(surroundings(6, 6)).protection.position_high_m;
+  variance_factor_ = 4.0;
+  EXPECT_NEAR(assess(surroundings(6, 6)).protection.position_high_m, 2.0 * usual, 0.05 * usual);
+  variance_factor_ = 0.25;
+  EXPECT_DOUBLE_EQ(assess(surroundings(6, 6)).protection.position_high_m, usual);
 }
 
 TEST_F(Monitor, LeavingALandmarkOutGivesThePoseThatTheOthersGive) {
@@ -149,6 +161,7 @@ TEST(FaultClass, PointsGoByTheBeliefInTheirTracksAndWallsByNone) {
 
 TEST_F(Monitor, MatchesOfLessBelievedTracksGiveWiderLevels) {
   params_.point_faults = {{{0.0, {1e-3, 1e-2}}, {0.7, {1e-3, 5e-3}}, {0.9, {1e-8, 1e-7}}}};
+  params_.points_together = {0.0, 0.0};
   const double sure = assess(surroundings(4, 2), 0.95).protection.position_high_m;
   const double unsure = assess(surroundings(4, 2), 0.75).protection.position_high_m;
   EXPECT_GT(unsure, 1.05 * sure);
@@ -156,6 +169,15 @@ TEST_F(Monitor, MatchesOfLessBelievedTracksGiveWiderLevels) {
 
 TEST_F(Monitor, ManyMatchesThatAreOftenWrongAreWorthNoMoreThanThePrediction) {
   params_.point_faults.fill({0.0, {1e-6, 0.05}});
+  params_.points_together = {0.0, 0.0};
+  const Integrity integrity = assess(surroundings(12, 12));
+  EXPECT_LT(integrity.protection.position_low_m, 0.1);
+  EXPECT_GT(integrity.protection.position_high_m, 3.0 * 0.1);
+}
+
+TEST_F(Monitor, PointsThatAreWrongTogetherAreWorthNoMoreEither) {
+  params_.point_faults.fill({0.0, {0.0, 0.0}});
+  params_.points_together = {0.0, 1e-3};
   const Integrity integrity = assess(surroundings(12, 12));
   EXPECT_LT(integrity.protection.position_low_m, 0.1);
   EXPECT_GT(integrity.protection.position_high_m, 3.0 * 0.1);

@@ -212,6 +212,8 @@ const std::vector<Case> kCases{
      "the pose contradicts its prediction"},
     {"Unrecognised", [](Judged& j) { j.localization.unrecognised = true; }, kUncertain,
      "landmarks that should be in sight are not seen"},
+    {"Inconsistent", [](Judged& j) { j.localization.inconsistent = true; }, kUncertain,
+     "landmarks contradict each other"},
     {"OffPlan", [](Judged& j) { j.localization.off_plan = true; }, kUncertain, "the scan does not lie on the plan"},
     {"DeniedInTheDark", [](Judged& j) { deny(j), j.camera_seen = false; }, kLost,
      "camera dark or missing; more speaks against the pose than for it"},

@@ -22,7 +22,7 @@ LocalizationEvidence good() {
   evidence.detected = evidence.explained = 20.0;
   evidence.in_sight = evidence.recognised = 10;
   evidence.scan_agreement = 1.0;
-  evidence.camera_seen = true;
+  evidence.camera_seen = evidence.range_finder_seen = true;
   return evidence;
 }
 
@@ -103,6 +103,45 @@ TEST_F(PoseTrusted, DoubtLingers) {
   EXPECT_TRUE(weigh(0.0, unknown_place).unrecognised);
   EXPECT_TRUE(weigh(0.0).doubted);
   EXPECT_FALSE(weigh(0.0).doubted);
+}
+
+TEST_F(PoseTrusted, AWhileAfterADoubtWhereOneInstrumentIsAlone) {
+  LocalizationEvidence no_scan = good();
+  no_scan.range_finder_seen = false;
+  LocalizationEvidence unknown_place = no_scan;
+  unknown_place.recognised = 1;
+  weigh(0.0, unknown_place);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(weigh(0.0, no_scan).doubted) << i;
+  EXPECT_FALSE(weigh(0.0, no_scan).doubted);
+}
+
+TEST_F(PoseTrusted, NotBecauseTheWheelsHaveBecomeUncertain) {
+  EXPECT_FALSE(as_foreseen(weigh(0.2)));
+  Localization fix = weigh(0.2);
+  for (int i = 0; i < 1000 && !as_foreseen(fix); ++i) {
+    trust.follow({{}, kSmall});
+    fix = weigh(0.2);
+  }
+  ASSERT_TRUE(as_foreseen(fix));
+  EXPECT_TRUE(fix.doubted);
+  EXPECT_FALSE(weigh(0.0).doubted) << "back where the wheels led";
+}
+
+TEST_F(PoseTrusted, WhereItHasStrayedItIsHereOrWhereTheWheelsLed) {
+  const Localization fix = weigh(0.2);
+  EXPECT_NEAR(fix.estimate.covariance(1, 1), kSmall(1, 1) + 0.5 * 0.2 * 0.2, 1e-12);
+  EXPECT_DOUBLE_EQ(fix.estimate.covariance(0, 0), kSmall(0, 0));
+}
+
+TEST_F(PoseTrusted, NotWhereLandmarksContradictEachOther) {
+  trust.follow(kStep);
+  Localization fix;
+  fix.estimate = {kStep.pose, kSmall};
+  fix.detected = 20;
+  fix.inconsistent = true;
+  const Integrity integrity;
+  trust.weigh(good(), BinaryMass::vacuous(), &integrity, fix);
+  EXPECT_TRUE(fix.doubted);
 }
 
 TEST_F(PoseTrusted, InstrumentsThatDisagreeContradict) {

@@ -50,7 +50,8 @@ TEST(ProtectionLevel, OfTheLowEndIsThatOfTheLowProbabilities) {
   EXPECT_LT(ProtectionLevel()(hypotheses, low, kRisk, 100.0), 0.06);
   EXPECT_GT(ProtectionLevel()(hypotheses, {}, kRisk, 100.0), 0.2);
   const FaultComponent heading{.separation = &FaultHypothesis::separation_rad, .sigma = &FaultHypothesis::sigma_rad};
-  EXPECT_NEAR(ProtectionLevel()(hypotheses, heading, kRisk, 3.0), 0.1 + 0.002 * std::sqrt(-2.0 * std::log(1e-3)), 0.003);
+  EXPECT_NEAR(ProtectionLevel()(hypotheses, heading, kRisk, 3.0), 0.1 + 0.002 * std::sqrt(-2.0 * std::log(1e-3)),
+              0.003);
 }
 
 }  // namespace

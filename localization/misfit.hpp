@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <span>
+
+#include "localization/pose_solver.hpp"
+
+namespace credo::localization {
+
+struct MisfitParams {
+  /// Squared residual per degree of freedom, in expected standard deviations, where nothing is wrong: the median over
+  /// nominal drives. It is above 1 as some readings are always far off, which robust weights keep out of the pose.
+  double usual = 1.3;
+  double outlier = 25.0;       ///< at most as much counts of one observation, its squared residual
+  double memory = 0.6;         ///< the weight that an acquisition has in the next one
+  double usual_dofs = 10.0;    ///< degrees of freedom with the usual misfit that are taken as known before the first
+  double contradiction = 4.0;  ///< from this variance factor on landmarks contradict each other
+};
+
+/// How far what is matched contradicts itself, lately: the variance of unit weight a posteriori of least squares (also
+/// known as Birge's ratio, squared). Sensors in another state than their models have them, a plan less exact than it
+/// says, and wrong matches that agree with each other and with nothing else show in it.
+class Misfit {
+ public:
+  explicit Misfit(const MisfitParams& params = {});
+
+  /// One acquisition. \param observations  those of the solution
+  void add(std::span<const Observation> observations, const PoseSolution& solution);
+
+  /// By how much errors are larger than the covariance of the pose says, squared: about 1 where nothing is wrong.
+  [[nodiscard]] double variance_factor() const { return squares_ / (dofs_ * params_.usual); }
+  [[nodiscard]] bool contradicting() const { return variance_factor() > params_.contradiction; }
+
+ private:
+  MisfitParams params_;
+  double squares_ = 0.0;  ///< of the residuals, the latest ones weighing most
+  double dofs_ = 0.0;     ///< likewise
+};
+
+}  // namespace credo::localization
