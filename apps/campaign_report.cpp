@@ -88,7 +88,8 @@ std::string match_counts_line(const GroupSummary& group) {
 /// By the classes in which the integrity monitor has its fault priors: over everything with intervals, then the counts
 /// by degradation.
 std::string match_tables(const CampaignSummary& summary) {
-  std::string text = "\nwrong matches by the belief of their track where it is localized, all runs, with 95 % intervals\n";
+  std::string text =
+      "\nwrong matches by the belief of their track where it is localized, all runs, with 95 % intervals\n";
   text +=
       fmt::format("  {:<18}  {:>9}  {:>7}  {:>9}  [Clopper and Pearson]\n", "class", "matches", "wrong", "frequency");
   std::string head = fmt::format("  {:<18}", "degradation");
