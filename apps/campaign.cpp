@@ -155,8 +155,19 @@ void execute(const CampaignOptions& options) {
     std::printf("%s", to_text(summary, folder.spec().method, milliseconds(folder)).c_str());
 }
 
-void check_combination(const CampaignOptions& options) {
-  if (options.summarize.empty() == options.spec.empty())
+/// What tells how to run, beside the wish to run nothing.
+void refuse_to_be_told_how_to_run(const CLI::App& command) {
+  for (const char* option : {"SPEC", "--out", "--seeds", "--threads", "--limit", "--force"}) {
+    if (command.count(option) == 0) continue;
+    throw CLI::ValidationError(
+        "campaign", std::string(option) + " says how to run, but --summarize sums up what is there and runs nothing: " +
+                        "expected one of them, not both");
+  }
+}
+
+void check_combination(const CampaignOptions& options, const CLI::App& command) {
+  if (!options.summarize.empty()) refuse_to_be_told_how_to_run(command);
+  if (options.summarize.empty() && options.spec.empty())
     throw CLI::ValidationError("campaign", "expected either SPEC with --out, or --summarize DIR");
   if (!options.spec.empty() && options.out.empty())
     throw CLI::ValidationError("campaign", "--out is missing: the folder for the runs");
@@ -186,8 +197,8 @@ void add_campaign(CLI::App& app) {
   command->add_flag("-f,--force", options->force, "start anew where the folder holds another campaign");
   command->add_flag("--pictures", options->pictures, "draws errors, availability and protection levels into pictures/");
   add_format_option(*command, options->format);
-  command->callback([options] {
-    check_combination(*options);
+  command->callback([options, command] {
+    check_combination(*options, *command);
     execute(*options);
   });
 }

@@ -76,6 +76,19 @@ TEST_F(CampaignCommand, SumsUpAFinishedFolderAgain) {
   EXPECT_TRUE(fs::exists(folder_ / "out/summary.csv"));
 }
 
+TEST_F(CampaignCommand, SummingUpTakesNothingThatSaysHowToRun) {
+  ASSERT_EQ(credo("campaign tiny.yaml --out out --seeds 1").status, 0);
+  for (const char* option : {"tiny.yaml", "--out other", "--seeds 1", "--threads 1", "--limit 1", "--force"}) {
+    const Answer answer = credo("campaign --summarize out " + std::string(option));
+    EXPECT_EQ(answer.status, 2) << option;
+    const std::string name = *option == '-' ? std::string(option).substr(0, std::string(option).find(' ')) : "SPEC";
+    EXPECT_THAT(answer.error, HasSubstr(name + " says how to run, but --summarize")) << option;
+    EXPECT_EQ(answer.out, "") << option;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "other"));
+  EXPECT_EQ(credo("campaign --summarize out --pictures --format json").status, 0);
+}
+
 TEST_F(CampaignCommand, RefusesToMixAndSaysWhatToDo) {
   EXPECT_EQ(credo("campaign tiny.yaml --out out --seeds 1").status, 0);
   EXPECT_THAT(credo("campaign tiny.yaml --out out").error, HasSubstr("start anew with --force"));
