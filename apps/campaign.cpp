@@ -143,7 +143,10 @@ void execute(const CampaignOptions& options) {
   const CampaignFolder folder =
       options.summarize.empty() ? run_missing(options) : CampaignFolder::to_read(options.summarize);
   const std::vector<evaluation::CampaignRun> runs = evaluation::finished_runs(folder);
-  if (runs.empty()) throw std::runtime_error(folder.path().string() + ": no run is finished");
+  if (runs.empty())
+    throw std::runtime_error(folder.path().string() +
+                             ": no run is finished: play some with credo campaign SPEC --out " +
+                             folder.path().string());
   const evaluation::CampaignSummary summary = evaluation::summarise(folder.spec(), runs);
   const nlohmann::ordered_json json = to_json(summary, folder.spec().method);
   datasets::write_file_whole(folder.path() / "summary.csv", evaluation::to_csv(summary));

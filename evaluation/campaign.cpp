@@ -36,6 +36,12 @@ void require_same(const fs::path& file, const std::string& expected, const char*
 
 bool is_campaign(const fs::path& folder) { return fs::exists(folder / kSpecFile); }
 
+std::string what_is_there_instead(const fs::path& folder) {
+  if (!fs::exists(folder)) return "there is no such folder";
+  if (!fs::is_directory(folder)) return "is a file";
+  return fs::is_empty(folder) ? "is empty" : fmt::format("holds no campaign ({} is missing)", kSpecFile);
+}
+
 void remove_runs(const fs::path& folder) {
   fs::remove_all(folder / kRunsFolder);
   for (const char* file : {"times.csv", "summary.csv", "summary.json", kConfigFile, kSpecFile})
@@ -128,7 +134,12 @@ CampaignFolder CampaignFolder::to_run(const fs::path& folder, const CampaignSpec
   return {folder, spec};
 }
 
-CampaignFolder CampaignFolder::to_read(const fs::path& folder) { return {folder, read_campaign(folder / kSpecFile)}; }
+CampaignFolder CampaignFolder::to_read(const fs::path& folder) {
+  if (is_campaign(folder)) return {folder, read_campaign(folder / kSpecFile)};
+  throw std::runtime_error(
+      fmt::format("{}: {}; expected the folder of a campaign: make one with credo campaign SPEC --out {}",
+                  folder.string(), what_is_there_instead(folder), folder.string()));
+}
 
 fs::path CampaignFolder::file_of(const RunKey& key) const { return path_ / kRunsFolder / (name_of(key) + ".csv"); }
 

@@ -32,7 +32,8 @@ class CampaignFolder {
   ///   another specification or made with something else
   static CampaignFolder to_run(const std::filesystem::path& folder, const CampaignSpec& spec, const std::string& config,
                                bool anew);
-  /// A folder with a campaign. \throws datasets::FormatError where there is none
+  /// A folder with a campaign.
+  /// \throws std::runtime_error  that says what to do, where there is none; as read_campaign for its specification
   static CampaignFolder to_read(const std::filesystem::path& folder);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
