@@ -115,7 +115,7 @@ std::map<std::string, double> milliseconds(const CampaignFolder& folder) {
 }
 
 void draw_pictures(const CampaignFolder& folder, const std::vector<evaluation::CampaignRun>& runs) {
-  const fs::path pictures = folder.path() / "pictures";
+  const fs::path pictures = folder.path() / evaluation::kPicturesFolder;
   fs::create_directories(pictures);
   results::write_png(pictures / "errors.png", evaluation::error_picture(folder.spec(), runs));
   results::write_png(pictures / "availability.png", evaluation::availability_picture(folder.spec(), runs));

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/apps/command.hpp"
 
@@ -109,6 +110,26 @@ TEST_F(CampaignCommand, SummingUpTakesNothingThatSaysHowToRun) {
   }
   EXPECT_FALSE(fs::exists(folder_ / "other"));
   EXPECT_EQ(credo("campaign --summarize out --pictures --format json").status, 0);
+}
+
+TEST_F(CampaignCommand, WhatSumsUpFewerOrOtherRunsDoesNotStayBesideNewOnes) {
+  const auto pictures = [&] {
+    std::set<std::string> names;
+    if (!fs::exists(folder_ / "out/pictures")) return names;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/pictures")) names.insert(entry.path().filename());
+    return names;
+  };
+  const std::set<std::string> all{"availability.png", "errors.png", "protection.png"};
+  ASSERT_EQ(credo("campaign tiny.yaml --out out --limit 1 --pictures").status, 0);
+  EXPECT_EQ(pictures(), all);
+  ASSERT_EQ(credo("campaign --summarize out").status, 0);
+  EXPECT_EQ(pictures(), all);  // of the same runs
+  ASSERT_EQ(credo("campaign tiny.yaml --out out").status, 0);
+  EXPECT_EQ(pictures(), std::set<std::string>{});
+  ASSERT_EQ(credo("campaign tiny.yaml --out out --pictures").status, 0);
+  write("out/pictures/mine.png", "x");
+  ASSERT_EQ(credo("campaign tiny.yaml --out out --seeds 1 --force").status, 0);
+  EXPECT_EQ(pictures(), std::set<std::string>{"mine.png"});
 }
 
 TEST_F(CampaignCommand, RefusesToMixAndSaysWhatToDo) {
