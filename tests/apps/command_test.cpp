@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "tests/apps/command.hpp"
 
@@ -381,6 +382,26 @@ TEST_F(Command, PicturesInsideTheResultsStayAndAFailureLeavesNone) {
   write("one.tum", "5 0 0 0 0 0 0 1\n");
   EXPECT_EQ(credo("map data --poses one.tum --out out3 --pictures nowhere").status, 1);
   EXPECT_FALSE(fs::exists(folder_ / "nowhere"));
+}
+
+TEST_F(Command, PicturesOfOlderResultsDoNotStayBesideNewOnes) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  const auto pictures = [&](const char* folder) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / folder)) names.insert(entry.path().filename());
+    return names;
+  };
+  ASSERT_EQ(credo("run data --out out --pictures beside --moments 3").status, 0);
+  EXPECT_EQ(pictures("beside").size(), 9u);
+  for (const char* name : {"beside/notes.txt", "beside/planet_7.png", "beside/scan_of_mine.png"}) write(name, "x");
+  ASSERT_EQ(credo("run data --out out --pictures beside --moments 1 --force").status, 0);
+  EXPECT_EQ(pictures("beside").size(), 8u);
+  ASSERT_EQ(credo("map data --out out --pictures beside --force").status, 0);
+  EXPECT_EQ(pictures("beside"), (std::set<std::string>{"map.png", "notes.txt", "planet_7.png", "scan_of_mine.png"}));
+  ASSERT_EQ(credo("map data --out out --pictures out/pictures --force").status, 0);
+  ASSERT_EQ(credo("map data --out out --force").status, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out/pictures"));
 }
 
 TEST_F(Command, WithoutAFloorPlanPosesAreEgoMotionAndThereIsAMap) {
