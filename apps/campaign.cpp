@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "apps/campaign_report.hpp"
+#include "apps/campaign_worlds.hpp"
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/option_checks.hpp"
@@ -23,7 +24,6 @@
 #include "evaluation/campaign_summary.hpp"
 #include "results/config.hpp"
 #include "results/pictures.hpp"
-#include "sim/random_world.hpp"
 
 namespace credo::apps {
 namespace {
@@ -44,21 +44,6 @@ struct CampaignOptions {
   OutputFormat format;
 };
 
-/// The kind in random:KIND; nothing for another world.
-std::optional<std::string> kind_in(const std::string& world) {
-  const std::string prefix = std::string(kRandomWorld) + ":";
-  return world.starts_with(prefix) ? std::optional(world.substr(prefix.size())) : std::nullopt;
-}
-
-bool is_random(const std::string& world) { return world == kRandomWorld || kind_in(world); }
-
-sim::World world_of(const std::string& world, std::uint64_t seed) {
-  if (!is_random(world)) return sim::load_world(find_shipped(world, kWorlds));
-  sim::RandomWorldParams params;
-  if (const auto kind = kind_in(world)) params.kind = sim::building_kind(*kind);
-  return sim::random_world(seed, params);
-}
-
 /// FNV-1a of 64 bits: tells one file from another.
 std::string checksum(const fs::path& file) {
   std::uint64_t sum = 0xcbf29ce484222325ULL;
@@ -66,7 +51,7 @@ std::string checksum(const fs::path& file) {
   return fmt::format("{:016x}", sum);
 }
 
-/// Everything that the runs depend on beside the specification. \throws for a world that is not there
+/// Everything that the runs depend on beside the specification.
 std::string config_of(const CampaignSpec& spec) {
   const auto params = evaluation::RunParams::of(spec.method);
   std::string text = results::to_yaml(results::RunConfig{.version = CREDO_VERSION,
@@ -75,10 +60,8 @@ std::string config_of(const CampaignSpec& spec) {
                                                          .localizer = params.localizer});
   text += "made_with:  # runs of another program or of other worlds are not mixed with these\n";
   text += "  program: " + checksum("/proc/self/exe") + "\n";
-  for (const std::string& world : spec.worlds) {
-    if (const auto kind = kind_in(world)) (void)sim::building_kind(*kind);
-    if (!is_random(world)) text += fmt::format("  {}: {}\n", world, checksum(find_shipped(world, kWorlds)));
-  }
+  for (const std::string& world : spec.worlds)
+    if (!is_drawn(world)) text += fmt::format("  {}: {}\n", world, checksum(find_shipped(world, kWorlds)));
   return text;
 }
 
@@ -94,7 +77,7 @@ int threads_of(const CampaignOptions& options) {
 }
 
 CampaignFolder run_missing(const CampaignOptions& options) {
-  CampaignSpec spec = evaluation::read_campaign(find_shipped(options.spec, kCampaigns));
+  CampaignSpec spec = evaluation::read_campaign(find_shipped(options.spec, kCampaigns), complaint_about_world);
   if (options.seeds > 0) spec.seeds = options.seeds;
   const Interruptible interruptible;
   const CampaignFolder folder = CampaignFolder::to_run(options.out, spec, config_of(spec), options.force);
@@ -105,7 +88,7 @@ CampaignFolder run_missing(const CampaignOptions& options) {
     bar.update(p.share, fmt::format("{} of {} runs, {:.1f} a minute", p.finished, p.missing, per_minute));
   };
   try {
-    (void)evaluation::run_campaign(folder, world_of, {.threads = threads_of(options), .most_runs = options.limit},
+    (void)evaluation::run_campaign(folder, campaign_world, {.threads = threads_of(options), .most_runs = options.limit},
                                    {.thread_seconds = thread_seconds, .progress = show, .check = Interruptible::check});
   } catch (const Interrupted&) {
     say_warning("the runs that are finished are kept: the same command goes on from there");
@@ -132,7 +115,7 @@ std::map<std::string, double> milliseconds(const CampaignFolder& folder) {
 }
 
 void draw_pictures(const CampaignFolder& folder, const std::vector<evaluation::CampaignRun>& runs) {
-  const fs::path pictures = folder.path() / "pictures";
+  const fs::path pictures = folder.path() / evaluation::kPicturesFolder;
   fs::create_directories(pictures);
   results::write_png(pictures / "errors.png", evaluation::error_picture(folder.spec(), runs));
   results::write_png(pictures / "availability.png", evaluation::availability_picture(folder.spec(), runs));
@@ -143,7 +126,10 @@ void execute(const CampaignOptions& options) {
   const CampaignFolder folder =
       options.summarize.empty() ? run_missing(options) : CampaignFolder::to_read(options.summarize);
   const std::vector<evaluation::CampaignRun> runs = evaluation::finished_runs(folder);
-  if (runs.empty()) throw std::runtime_error(folder.path().string() + ": no run is finished");
+  if (runs.empty())
+    throw std::runtime_error(folder.path().string() +
+                             ": no run is finished: play some with credo campaign SPEC --out " +
+                             folder.path().string());
   const evaluation::CampaignSummary summary = evaluation::summarise(folder.spec(), runs);
   const nlohmann::ordered_json json = to_json(summary, folder.spec().method);
   datasets::write_file_whole(folder.path() / "summary.csv", evaluation::to_csv(summary));
@@ -155,8 +141,19 @@ void execute(const CampaignOptions& options) {
     std::printf("%s", to_text(summary, folder.spec().method, milliseconds(folder)).c_str());
 }
 
-void check_combination(const CampaignOptions& options) {
-  if (options.summarize.empty() == options.spec.empty())
+/// What tells how to run, beside the wish to run nothing.
+void refuse_to_be_told_how_to_run(const CLI::App& command) {
+  for (const char* option : {"SPEC", "--out", "--seeds", "--threads", "--limit", "--force"}) {
+    if (command.count(option) == 0) continue;
+    throw CLI::ValidationError(
+        "campaign", std::string(option) + " says how to run, but --summarize sums up what is there and runs nothing: " +
+                        "expected one of them, not both");
+  }
+}
+
+void check_combination(const CampaignOptions& options, const CLI::App& command) {
+  if (!options.summarize.empty()) refuse_to_be_told_how_to_run(command);
+  if (options.summarize.empty() && options.spec.empty())
     throw CLI::ValidationError("campaign", "expected either SPEC with --out, or --summarize DIR");
   if (!options.spec.empty() && options.out.empty())
     throw CLI::ValidationError("campaign", "--out is missing: the folder for the runs");
@@ -186,8 +183,8 @@ void add_campaign(CLI::App& app) {
   command->add_flag("-f,--force", options->force, "start anew where the folder holds another campaign");
   command->add_flag("--pictures", options->pictures, "draws errors, availability and protection levels into pictures/");
   add_format_option(*command, options->format);
-  command->callback([options] {
-    check_combination(*options);
+  command->callback([options, command] {
+    check_combination(*options, *command);
     execute(*options);
   });
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "apps/about.hpp"
@@ -14,9 +15,11 @@
 #include "apps/interrupt.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output.hpp"
+#include "apps/picture_folder.hpp"
 #include "apps/pipeline.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/acquisitions.hpp"
+#include "datasets/staged_folder.hpp"
 #include "evaluation/baseline_ekf.hpp"
 #include "evaluation/baseline_icp.hpp"
 #include "evaluation/baseline_mcl.hpp"
@@ -264,6 +267,8 @@ void print_tables(const Tables& all, const LocalizersOptions& options) {
 
 void execute(const LocalizersOptions& options) {
   const Interruptible interruptible;
+  std::optional<datasets::StagedFolder> pictures;
+  if (!options.pictures.empty()) pictures.emplace(options.pictures, refuse_older_pictures);
   Tables tables;
   std::vector<LocalizerRecord> total;
   std::vector<Contender> all;
@@ -277,10 +282,9 @@ void execute(const LocalizersOptions& options) {
     about(path, [&] { tables.add(dataset.header.name, all, records); });
     total.resize(all.size());
     for (std::size_t k = 0; k < all.size(); ++k) total[k] += records[k];
-    if (options.pictures.empty()) continue;
-    fs::create_directories(options.pictures);
-    results::write_png(fs::path(options.pictures) / ("errors_" + fs::path(path).filename().string() + ".png"),
-                       picture(dataset, all));
+    if (pictures)
+      results::write_png(pictures->path() / ("errors_" + fs::path(path).filename().string() + ".png"),
+                         picture(dataset, all));
   }
   if (options.datasets.size() > 1) tables.add("all together", all, total);
   if (!options.out.empty()) {
@@ -289,6 +293,7 @@ void execute(const LocalizersOptions& options) {
       csv += evaluation::to_csv(tables.titles[t], tables.tables[t]);
     results::write_text(options.out, csv);
   }
+  if (pictures) pictures->commit();
   print_tables(tables, options);
 }
 
@@ -306,7 +311,7 @@ void add_compare_localizers(CLI::App& compare) {
       ->check(a_path())
       ->required();
   command->add_option("-o,--out", options->out, "file for the table as comma-separated values")->check(a_path());
-  command->add_option("--pictures", options->pictures, "folder for a picture of the errors of each dataset")
+  command->add_option("--pictures", options->pictures, "a new folder for a picture of the errors of each dataset")
       ->check(a_path());
   command->add_option("--seed", options->seed, "of the particles and of the oracle's starts")
       ->check(any_seed())

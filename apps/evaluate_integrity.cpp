@@ -16,6 +16,7 @@
 #include "apps/integrity_json.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output.hpp"
+#include "apps/picture_folder.hpp"
 #include "apps/run_list.hpp"
 #include "datasets/staged_folder.hpp"
 #include "evaluation/consistency.hpp"
@@ -43,9 +44,7 @@ void add_picture_option(CLI::App& command, PoolOptions& o) {
 template <typename Draw>
 void write_pictures(const std::string& target, const Draw& draw) {
   if (target.empty()) return;
-  datasets::StagedFolder folder(target, [](const std::filesystem::path& there) {
-    throw std::runtime_error(there.string() + ": is there already: choose another folder for the pictures");
-  });
+  datasets::StagedFolder folder(target, refuse_older_pictures);
   draw(folder.path());
   folder.commit();
 }

@@ -20,8 +20,8 @@ class Interrupted : public std::runtime_error {
 };
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP wait for the next check() instead of ending the process on the spot, so
-/// that what is unfinished is taken away; the third such signal ends it at once. Make it before what is to be taken
-/// away.
+/// that what is unfinished is taken away; a second one ends it at once, wherever it is. Make it before what is to be
+/// taken away.
 class Interruptible {
  public:
   Interruptible();

@@ -23,7 +23,7 @@ inline constexpr ShippedFiles kCampaigns{"campaign", "campaigns", CREDO_CAMPAIGN
 
 /// A file that is there, or one of those that come with credo by its name without ".yaml"; else a folder that is there,
 /// for its reader to refuse.
-/// \throws std::runtime_error for none of these, with the names that are known
+/// \throws std::runtime_error for none of these, with the nearest name and all that are known
 [[nodiscard]] std::filesystem::path find_shipped(const std::string& name, const ShippedFiles& files);
 
 }  // namespace credo::apps

@@ -36,10 +36,23 @@ void require_same(const fs::path& file, const std::string& expected, const char*
 
 bool is_campaign(const fs::path& folder) { return fs::exists(folder / kSpecFile); }
 
+std::string what_is_there_instead(const fs::path& folder) {
+  if (!fs::exists(folder)) return "there is no such folder";
+  if (!fs::is_directory(folder)) return "is a file";
+  return fs::is_empty(folder) ? "is empty" : fmt::format("holds no campaign ({} is missing)", kSpecFile);
+}
+
+/// And the folder of the pictures, where nothing else is in it.
+void remove_summary(const fs::path& folder) {
+  for (const std::string_view file : kSummaryFiles) fs::remove(folder / file);
+  const fs::path pictures = folder / kPicturesFolder;
+  if (fs::is_directory(pictures) && fs::is_empty(pictures)) fs::remove(pictures);
+}
+
 void remove_runs(const fs::path& folder) {
   fs::remove_all(folder / kRunsFolder);
-  for (const char* file : {"times.csv", "summary.csv", "summary.json", kConfigFile, kSpecFile})
-    fs::remove(folder / file);
+  remove_summary(folder);
+  for (const char* file : {"times.csv", kConfigFile, kSpecFile}) fs::remove(folder / file);
 }
 
 std::string in_one_line(std::string text) {
@@ -128,7 +141,12 @@ CampaignFolder CampaignFolder::to_run(const fs::path& folder, const CampaignSpec
   return {folder, spec};
 }
 
-CampaignFolder CampaignFolder::to_read(const fs::path& folder) { return {folder, read_campaign(folder / kSpecFile)}; }
+CampaignFolder CampaignFolder::to_read(const fs::path& folder) {
+  if (is_campaign(folder)) return {folder, read_campaign(folder / kSpecFile)};
+  throw std::runtime_error(
+      fmt::format("{}: {}; expected the folder of a campaign: make one with credo campaign SPEC --out {}",
+                  folder.string(), what_is_there_instead(folder), folder.string()));
+}
 
 fs::path CampaignFolder::file_of(const RunKey& key) const { return path_ / kRunsFolder / (name_of(key) + ".csv"); }
 
@@ -137,6 +155,7 @@ CampaignProgress run_campaign(const CampaignFolder& folder, const WorldSource& w
   std::vector<RunKey> missing;
   for (RunKey& key : runs_of(folder.spec()))
     if (missing.size() < params.most_runs && !folder.has(key)) missing.push_back(std::move(key));
+  if (!missing.empty()) remove_summary(folder.path());
   Player player(folder, world_of, watch, missing.size());
   sim::run_together(params.threads, missing.size(), [&](sim::NextIndex& next) {
     while (const auto i = next()) player.play_into_file(missing[*i]);

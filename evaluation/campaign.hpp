@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "evaluation/campaign_run.hpp"
@@ -16,6 +17,11 @@
 #include "sim/world.hpp"
 
 namespace credo::evaluation {
+
+inline constexpr std::string_view kPicturesFolder = "pictures";
+/// What sums up the runs of a folder, in it.
+inline constexpr std::string_view kSummaryFiles[] = {"summary.csv", "summary.json", "pictures/errors.png",
+                                                     "pictures/availability.png", "pictures/protection.png"};
 
 /// Makes the world that a specification names. Called from several threads at once.
 /// \throws std::invalid_argument for one that cannot be
@@ -27,12 +33,13 @@ class CampaignFolder {
  public:
   /// A folder to run in: made if it is not there.
   /// \param config  what the runs depend on beside the specification: the program, its parameters, the world files
-  /// \param anew       what earlier runs left is taken away first
+  /// \param anew    what earlier runs left, their summary included, is taken away first
   /// \throws std::runtime_error  that says what to do: for a folder with something else in it, or with a campaign of
   ///   another specification or made with something else
   static CampaignFolder to_run(const std::filesystem::path& folder, const CampaignSpec& spec, const std::string& config,
                                bool anew);
-  /// A folder with a campaign. \throws datasets::FormatError where there is none
+  /// A folder with a campaign.
+  /// \throws std::runtime_error  that says what to do, where there is none; as read_campaign for its specification
   static CampaignFolder to_read(const std::filesystem::path& folder);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -69,7 +76,7 @@ struct CampaignWatch {
 
 /// Plays the runs that the folder lacks. The files of the runs are the same whatever the number of threads, and whether
 /// or not the campaign was interrupted; a run that has not finished leaves none. A world that cannot be made is a
-/// refused run, and no end.
+/// refused run, and no end. Where a run is missing, the summary of fewer runs is taken away first.
 /// \returns what was finished and what was missing
 CampaignProgress run_campaign(const CampaignFolder& folder, const WorldSource& world_of, const CampaignParams& params,
                               const CampaignWatch& watch = {});

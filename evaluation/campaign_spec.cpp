@@ -33,6 +33,29 @@ std::vector<std::string> distinct_texts(const CheckedValue& list, const Same& sa
   return texts;
 }
 
+std::string file_name(std::string text) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+  };
+  std::replace_if(
+      text.begin(), text.end(), [&](char c) { return !allowed(c); }, '_');
+  return text;
+}
+
+/// What tells the files of one world's runs from those of another's.
+std::string short_name(const std::string& world) {
+  const std::filesystem::path path(world);
+  return file_name(path.extension() == ".yaml" ? path.stem().string() : path.filename().string());
+}
+
+std::vector<std::string> read_worlds(const CheckedValue& list, const WorldComplaint& complaint_about) {
+  std::vector<std::string> worlds = distinct_texts(list, short_name);
+  if (!complaint_about) return worlds;
+  for (const CheckedValue& item : list.items())
+    if (const std::string complaint = complaint_about(item.text()); !complaint.empty()) item.fail(complaint);
+  return worlds;
+}
+
 std::vector<std::string> read_degradations(const CheckedValue& list) {
   const std::vector<std::string>& known = sim::degradation_names();
   for (const CheckedValue& item : list.items()) {
@@ -53,21 +76,6 @@ void read_seeds(const CheckedValue& value, CampaignSpec& spec) {
   spec.seeds = seeds.required("count").integer(1, CampaignSpec::kMostRuns);
 }
 
-std::string file_name(std::string text) {
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
-  };
-  std::replace_if(
-      text.begin(), text.end(), [&](char c) { return !allowed(c); }, '_');
-  return text;
-}
-
-/// What tells the files of one world's runs from those of another's.
-std::string short_name(const std::string& world) {
-  const std::filesystem::path path(world);
-  return file_name(path.extension() == ".yaml" ? path.stem().string() : path.filename().string());
-}
-
 std::string quoted_list(const std::vector<std::string>& texts) {
   std::string list;
   for (const std::string& text : texts) {
@@ -83,11 +91,11 @@ std::string quoted_list(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-CampaignSpec read_campaign(const std::filesystem::path& file) {
+CampaignSpec read_campaign(const std::filesystem::path& file, const WorldComplaint& complaint_about) {
   const CheckedMap keys = datasets::load_yaml(file).map({"format", "worlds", "seeds", "degradations", "method"});
   (void)keys.required("format").one_of({"credo-campaign/1"});
   CampaignSpec spec;
-  spec.worlds = distinct_texts(keys.required("worlds"), short_name);
+  spec.worlds = read_worlds(keys.required("worlds"), complaint_about);
   if (const auto seeds = keys.optional("seeds")) read_seeds(*seeds, spec);
   if (const auto degradations = keys.optional("degradations")) spec.degradations = read_degradations(*degradations);
   if (const auto method = keys.optional("method"))

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,15 @@ struct CampaignSpec {
   friend bool operator==(const CampaignSpec&, const CampaignSpec&) = default;
 };
 
+/// What is wrong with the name of a world, for a person; empty where nothing is.
+using WorldComplaint = std::function<std::string(const std::string& world)>;
+
 /// Reads a campaign file (docs/campaigns.md).
+/// \param complaint_about  tells worlds from other names; empty: any name is taken
 /// \throws datasets::FormatError  with file and line: an unknown key or degradation, with the nearest known one; a
-///   number out of its bounds; a world or degradation that is listed twice; no world; more than kMostRuns runs
-[[nodiscard]] CampaignSpec read_campaign(const std::filesystem::path& file);
+///   number out of its bounds; a world that is complained about; a world or degradation that is listed twice; no world;
+///   more than kMostRuns runs
+[[nodiscard]] CampaignSpec read_campaign(const std::filesystem::path& file, const WorldComplaint& complaint_about = {});
 
 /// The same as a text that read_campaign takes.
 [[nodiscard]] std::string to_yaml(const CampaignSpec& spec);

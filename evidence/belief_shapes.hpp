@@ -44,8 +44,8 @@ struct RampBelief {
 };
 
 /// For parameters that a user has set.
-/// \throws std::invalid_argument, beginning with `name`, unless all breakpoints are finite, both ramps run the same way
-///         and yes + no <= 1 everywhere.
+/// \throws std::invalid_argument  that begins with `name` and says what was found, unless all breakpoints are finite,
+///   both ramps run the same way and yes + no <= 1 everywhere
 void check(const RampBelief& shape, const char* name);
 
 }  // namespace credo::evidence

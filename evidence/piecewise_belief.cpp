@@ -13,13 +13,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "evidence/number_text.hpp"
+
 namespace credo::evidence {
 namespace {
-
-void append_number(std::string& text, double value) {
-  char buffer[40];
-  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
-}
 
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 

@@ -55,7 +55,7 @@ struct LocalizerParams {
   [[nodiscard]] LocalizerParams with_method(perception::Method chosen) const;
 };
 
-/// \throws std::invalid_argument for parameters out of their range
+/// \throws std::invalid_argument  for parameters out of their range, with the name, what was found and what is expected
 void check(const LocalizerParams& params);
 
 /// Tracks + map -> Localization: the dynamic localization of Clerentin et al., sec. 4.

@@ -177,4 +177,24 @@ void YamlMap::fail(const std::string& key, const std::string& message) const {
   throw std::runtime_error(location(file_, node.IsDefined() ? node.Mark() : map.Mark()) + message);
 }
 
+void placed(const YamlMap& map, const std::string& key, const std::function<void()>& build) {
+  try {
+    build();
+  } catch (const std::invalid_argument& error) {
+    map.fail(key, error.what());
+  }
+}
+
+double not_negative(YamlMap& map, const std::string& key, double fallback) {
+  return map.number_within(key, fallback, 0.0, YamlMap::kLargest);
+}
+
+double positive(YamlMap& map, const std::string& key, double fallback, double least) {
+  return map.number_within(key, fallback, least, YamlMap::kLargest);
+}
+
+double share(YamlMap& map, const std::string& key, double fallback) {
+  return map.number_within(key, fallback, 0.0, 1.0);
+}
+
 }  // namespace credo::sim

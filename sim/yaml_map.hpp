@@ -5,6 +5,7 @@
 
 #include <yaml-cpp/yaml.h>
 #include <Eigen/Core>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -53,6 +54,14 @@ class YamlMap {
   std::string what_;
   std::vector<std::string> known_;
 };
+
+/// Runs `build`, which knows no file, and says where its complaint (std::invalid_argument) belongs: at `key`.
+void placed(const YamlMap& map, const std::string& key, const std::function<void()>& build);
+
+// Numbers of one sign, and shares. They throw as number_within.
+[[nodiscard]] double not_negative(YamlMap& map, const std::string& key, double fallback);
+[[nodiscard]] double positive(YamlMap& map, const std::string& key, double fallback, double least = 1e-4);
+[[nodiscard]] double share(YamlMap& map, const std::string& key, double fallback);
 
 /// The member of `known` with the least edit distance to `word`; empty if none is near.
 [[nodiscard]] std::string nearest_word(const std::string& word, const std::vector<std::string>& known);

@@ -7,8 +7,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 namespace credo::tracking {
 namespace {
@@ -34,28 +32,6 @@ struct Fate {
   double match_yes = 0.0;
   bool transition = false;
 };
-
-void check(const TrackerParams& params) {
-  const auto require = [](bool good, const char* what) {
-    if (!good) throw std::invalid_argument(std::string("tracker: ") + what);
-  };
-  const PredictionParams& p = params.prediction;
-  require(p.observations >= 1 && p.observations <= History::kCapacity, "prediction.observations has to be 1..8");
-  require(p.observations_paper >= 1 && p.observations_paper <= History::kCapacity,
-          "prediction.observations_paper has to be 1..8");
-  require(p.nearest_m > 0.0, "prediction.nearest_m has to be positive");
-  require(p.expected_step_m >= 0.0 && p.expected_turn_rad >= 0.0 && p.expected_turn_change_rad >= 0.0,
-          "the expected step, turn and change of turn may not be negative");
-  require(params.max_undecided_in_a_row >= 0, "max_undecided_in_a_row may not be negative");
-  require(params.sightings_to_change_type >= 1, "sightings_to_change_type has to be at least 1");
-  const AssociationParams& a = params.association;
-  evidence::check(a.azimuth_deg, "tracker: association.azimuth_deg");
-  evidence::check(a.sigmas, "tracker: association.sigmas");
-  require(a.min_margin >= 0.0 && a.min_margin < 1.0, "association.min_margin has to be in [0, 1)");
-  require(a.floor_azimuth_rad > 0.0 && a.floor_position_m > 0.0 && a.wall_floors.angle_rad > 0.0 &&
-              a.wall_floors.across_m > 0.0 && a.wall_floors.gap_m > 0.0,
-          "the floors of the association have to be positive");
-}
 
 // A sensor that gave nothing at all is blind; what it cannot see is not missed.
 bool blind_for(const Track& track, const perception::Scene& scene) {

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "evidence/track_belief.hpp"
@@ -30,6 +31,10 @@ struct TrackerParams {
   /// Sightings in a row as one other type of point after which a track changes its type (default method).
   int sightings_to_change_type = 2;
 };
+
+/// \param before  what the names in a message are preceded by
+/// \throws std::invalid_argument  for parameters out of their range, with the name, what was found and what is expected
+void check(const TrackerParams& params, const std::string& before = "tracker: ");
 
 /// Scenes over time -> tracks with belief (Clerentin et al., sec. 4). Knows no map. One scene is handled in this order:
 /// predict, associate, then for what appeared start (any number of times), then update.

@@ -29,6 +29,7 @@ TEST_F(CompareCommand, LocalizersAreComparedOnTheSameReadings) {
   EXPECT_THAT(text.out, AllOf(StartsWith("small: "), HasSubstr("EKF, JCBB"), HasSubstr("ICP, oracle start"),
                               HasSubstr("misleading: available, yet")));
   EXPECT_TRUE(fs::exists(folder_ / "pictures" / "errors_data.png"));
+  EXPECT_THAT(credo("compare localizers data --pictures pictures").error, HasSubstr("pictures: is there already"));
   EXPECT_THAT(read("table.csv"), AllOf(StartsWith("dataset,localizer,"), HasSubstr("\nsmall,\"Credo, paper\",")));
 
   const json tables = json::parse(credo("compare localizers data data --format json").out);

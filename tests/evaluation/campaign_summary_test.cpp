@@ -106,7 +106,7 @@ TEST(CampaignSummary, CountsFaultsWhereNothingElseSpeaksAgainstThePose) {
   doubted.sample.localization.status = localization::Status::kUncertain;
   const std::vector runs{run_of(1, {trusted, together, doubted, doubted, row(0.0)})};
   EXPECT_EQ(summarise(kSpec, runs).groups[0].matches.total(), (MatchCounts{.matches = 17, .wrong = 5}));
-  EXPECT_DOUBLE_EQ(value_of(runs, "points_together").value(), 0.5);
+  EXPECT_DOUBLE_EQ(value_of(runs, "points_together"), 0.5);
 }
 
 TEST(CampaignSummary, AKidnappedRobotMustNoticeAndRecover) {

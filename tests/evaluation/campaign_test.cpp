@@ -148,7 +148,8 @@ TEST_F(Campaign, NeverTakesAFolderOfSomethingElse) {
   temporary_.write("other/letter.txt", "dear");
   EXPECT_THAT(complaint([&] { (void)folder("other", kSpec, "", true); }), HasSubstr("holds no campaign"));
   EXPECT_TRUE(fs::exists(temporary_ / "other/letter.txt"));
-  EXPECT_THROW((void)CampaignFolder::to_read(temporary_ / "other"), datasets::FormatError);
+  EXPECT_THAT(complaint([&] { (void)CampaignFolder::to_read(temporary_ / "other"); }),
+              testing::AllOf(HasSubstr("holds no campaign"), HasSubstr("credo campaign SPEC --out")));
 }
 
 TEST_F(Campaign, RunFilesAreReadWithSuspicion) {

@@ -190,7 +190,7 @@ TEST(PiecewiseBelief, BreakpointsOfRampsKeepTheirNames) {
   EXPECT_EQ(shape.breakpoints()[1].name, "yes_zero_from = no_zero_until");
   EXPECT_EQ(shape.breakpoints()[2].x, std::nextafter(10.0, 11.0));
   EXPECT_THAT([] { static_cast<void>(piecewise({.max_yes = 2.0}, kTitle)); },
-              ThrowsMessage<std::invalid_argument>(StartsWith("alignment: max_yes")));
+              ThrowsMessage<std::invalid_argument>(StartsWith("alignment.max_yes: found 2")));
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include "sim/world.hpp"
+#include "sim/yaml_map.hpp"
+
+namespace credo::sim {
+
+/// The `building` of a world file: light, materials, and everything that stands in it or hangs on its walls; then what
+/// is moved after the plan was drawn.
+/// \throws std::runtime_error  with file and line: for an unknown key, a value out of its range, what finds no wall, a
+///   building without walls or larger than 500 m
+void read_building(YamlMap building, World& world);
+
+}  // namespace credo::sim

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/apps/command.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using credo::tests::Answer;
+using credo::tests::Command;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+TEST_F(Command, PosesOfAnotherDriveAreNoMap) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  write("other.tum", "5 0 0 0 0 0 0 1\n6 1 0 0 0 0 0 1\n");
+  const Answer answer = credo("map data --poses other.tum --out out");
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_THAT(answer.error, AllOf(HasSubstr("other.tum from 5.0"), HasSubstr("same drive")));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  write("other.tum", "1600000000 0 0 0 0 0 0 1\n1600000003 1 0 0 0 0 0 1\n");
+  const Answer partly = credo("map data --poses other.tum --out out");
+  EXPECT_EQ(partly.status, 0) << partly.error;
+  EXPECT_THAT(partly.error, AllOf(HasSubstr("warning"), HasSubstr("have no pose near in time")));
+  EXPECT_EQ(credo("map data --sensors camera --out out2").status, 2);
+}
+
+/// A laser and three transducers; the robot stands still in a corner.
+constexpr const char* kLogWithSonar =
+    "ODOM 0 0 0 0 0 0 1 host 1\nSONAR 0.5 3 1.2 1.4 2.5 0 0 0 0 0 1.57 0 0 -1.57 1.1 host 1.1\n"
+    "FLASER 4 1.5 1.4 1.3 1.2 0 0 0 0 0 0 1.2 host 1.2\n"
+    "ODOM 0 0 0 0 0 0 1.3 host 1.3\nFLASER 4 1.5 1.4 1.3 1.2 0 0 0 0 0 0 1.4 host 1.4\n";
+
+TEST_F(Command, OfALogOnlyTheSensorsAskedForAreMapped) {
+  write("log", kLogWithSonar);
+  const auto mapped = [&](const std::string& sensors) {
+    const Answer answer = credo("map log --force --out out --format json --sensors " + sensors);
+    EXPECT_EQ(answer.status, 0) << sensors << ": " << answer.error;
+    const json report = json::parse(answer.out, nullptr, false);
+    return answer.status == 0 ? std::pair(report["scans"].get<int>(), report["sonar_sweeps"].get<int>())
+                              : std::pair(-1, -1);
+  };
+  EXPECT_EQ(mapped("range"), std::pair(2, 0));
+  EXPECT_EQ(mapped("sonar"), std::pair(0, 1));
+  EXPECT_EQ(mapped("range,sonar"), std::pair(2, 1));
+  write("blind.log", "FLASER 4 1.5 1.4 1.3 1.2 0 0 0 0 0 0 1.2 host 1.2\n");
+  for (const char* more : {"", " --poses blind.tum"}) {
+    write("blind.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+    const Answer answer = credo("map blind.log --sensors sonar --out none" + std::string(more));
+    EXPECT_EQ(answer.status, 1) << more;
+    EXPECT_THAT(answer.error, HasSubstr("blind.log: holds no reading of the sensors")) << more;
+    EXPECT_FALSE(fs::exists(folder_ / "none")) << more;
+  }
+}
+
+TEST_F(Command, ALogThatFillsTheRangeOfItsCellsIsMappedWithAWarning) {
+  std::string log;
+  for (int k = 0; k < 1000; ++k) {  // the same wall, seen from two places in turn
+    const std::string x = k % 2 == 0 ? "0" : "0.5", time = std::to_string(1.0 + 0.1 * k);
+    log += "FLASER 4 2 2 2 2 " + x + " 0 0 " + x + " 0 0 " + time + " host " + time + '\n';
+  }
+  write("log", log);
+  const Answer answer = credo("map log --out out");
+  EXPECT_EQ(answer.status, 0) << answer.error;
+  EXPECT_THAT(answer.error, HasSubstr("tiles of the map have a cell that has reached the end of its range"));
+}
+
+TEST_F(Command, AResolutionTooFineForTheSensorsIsRefused) {
+  write_small_world();
+  write("small.yaml", std::regex_replace(read("small.yaml"), std::regex("opensimple,"), "opensimple, range_max: 8,"));
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  for (const char* command : {"run", "map"}) {
+    const Answer answer = credo(std::string(command) + " data --resolution 0.0015 --out out");
+    EXPECT_EQ(answer.status, 1) << command;
+    EXPECT_THAT(answer.error, AllOf(HasSubstr("data: range finder"), HasSubstr("choose one between"))) << command;
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << command;
+  }
+}
+
+TEST_F(Command, AMapThatWouldOutgrowItsLimitIsRefusedBeforeTheWork) {
+  write_small_world();
+  write("small.yaml", std::regex_replace(std::regex_replace(read("small.yaml"), std::regex("outline: .*\n"),
+                                                            "outline: [[0, 0], [24, 0], [24, 6], [0, 6]]\n"),
+                                         std::regex("path: .*\n"), "path: [[1, 2], [23, 2], [23, 4], [1, 4]]\n"));
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+#ifdef __SANITIZE_ADDRESS__
+  const std::string limit;  // the sanitizer's own memory does not fit
+#else
+  const std::string limit = "ulimit -v 700000 && ";
+#endif
+  const std::string limited = "cd '" + folder_.string() + "' && " + limit +
+                              "'" CREDO_COMMAND "' map data --resolution 0.001 --sensors range --out out/map 2>.error";
+  EXPECT_EQ(WEXITSTATUS(std::system(limited.c_str())), 1);
+  EXPECT_THAT(read(".error"), AllOf(HasSubstr("data: the readings are from "),
+                                    HasSubstr("67108864 cells that a map may have at a resolution of 0.001 m"),
+                                    HasSubstr("choose one of 0.002 m or coarser")));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+}  // namespace

@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "grids/readout.hpp"
+#include "tests/mapping/readings.hpp"
+
+namespace credo::mapping {
+namespace {
+
+using namespace test;  // NOLINT: the helpers of these tests
+
+TEST(MapperLaser, AnEmptyRoomGetsItsWallsWithinACell) {
+  const sensors::RangeFinder finder = panoramic();
+  Mapper mapper(rig_with(finder));
+  for (const Pose2& pose : {Pose2{1.0, 1.2, 0.3}, Pose2{2.5, 1.7, -1.0}, Pose2{4.6, 2.2, 2.0}, Pose2{3.1, 0.8, 0.0}})
+    mapper.insert(certain(pose), scan_of_room(finder, pose, 6.0, 3.0));
+  const grids::EvidentialGrid& grid = mapper.grid();
+  int wrong_inside = 0, inside = 0, walls = 0, walls_found = 0;
+  for (int y = -2; y < 62; ++y) {
+    for (int x = -2; x < 122; ++x) {
+      const grids::CellState state = grids::decide(grid.at({x, y}));
+      if (x >= 1 && x < 119 && y >= 1 && y < 59) {  // more than a cell from every wall
+        ++inside;
+        wrong_inside += state != grids::CellState::kEmpty;
+      } else if (x == 0 || y == 0 || x == 119 || y == 59) {  // the row along a wall: it or its neighbour is occupied
+        ++walls;
+        bool found = false;
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx)
+            found |= grids::decide(grid.at({x + dx, y + dy})) == grids::CellState::kOccupied;
+        walls_found += found;
+      } else if (x < -1 || y < -1 || x > 120 || y > 60) {  // behind the walls
+        EXPECT_NE(state, grids::CellState::kEmpty) << x << ' ' << y;
+      }
+    }
+  }
+  EXPECT_LE(wrong_inside, inside / 100);
+  EXPECT_GE(walls_found, walls - 2);
+}
+
+/// The plain definition: a cell belongs to the beam nearest in angle, and gets what laser_li2006 says at its distance.
+TEST(MapperLaser, EveryCellGetsTheEvidenceOfItsBeamOnce) {
+  sensors::RangeFinder finder = panoramic();
+  finder.T_base_sensor = {0.1, -0.05, 0.4};
+  finder.angle_min_rad = -2.0;
+  finder.count = 229;  // leaves a gap behind
+  MapperParams params;
+  params.laser.free_sigmas = params.laser.hit_sigmas = 0.0;
+  params.scan.min_incidence_rad = 1.57;  // no two beams on one surface: sectors are plain
+  Mapper mapper(rig_with(finder), params);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> range(0.3F, 5.0F);
+  sensors::RangeScan scan;
+  for (int i = 0; i < finder.count; ++i) scan.ranges_m.push_back(i % 17 == 3 ? kNan : range(random));
+  const Pose2 pose{-7.33, 12.71, 0.77};
+  mapper.insert(certain(pose), scan);
+
+  const Pose2 T_sensor_map = (pose * finder.T_base_sensor).inverse();
+  const auto increment = [](const evidence::GridMass& mass) {
+    return evidence::quantise(evidence::log_commonality(mass, Li2006LaserParams{}.reliability));
+  };
+  int compared = 0, painted = 0;
+  const grids::CellIndex centre = params.georeference.cell_at(pose.translation());
+  for (int y = centre.y - 130; y <= centre.y + 130; ++y) {
+    for (int x = centre.x - 130; x <= centre.x + 130; ++x) {
+      const Eigen::Vector2d p = T_sensor_map * params.georeference.centre({x, y});
+      const double rho = p.norm(), beams = geometry::wrap_angle(std::atan2(p.y(), p.x()) - finder.angle_min_rad) /
+                                           finder.angle_increment_rad;
+      const double place = beams < -100.0 ? beams + 360.0 : beams;  // wrap_angle cuts behind the last beams
+      if (std::abs(place - std::round(place)) > 0.499) continue;    // on the border of two sectors
+      const int beam = static_cast<int>(std::round(place));
+      FixedLogCommonality expected{};
+      if (beam >= 0 && beam < finder.count && !std::isnan(scan.ranges_m[beam])) {
+        const double reading = scan.ranges_m[beam];
+        if (std::abs(std::abs(rho - reading) - 0.05) < 1e-3) continue;  // on the border of the interval
+        expected = increment(laser_li2006(rho, reading, 0.05));
+      }
+      ++compared;
+      painted += expected != FixedLogCommonality{};
+      ASSERT_EQ(mapper.grid().at({x, y}), expected) << x << ' ' << y << " rho " << rho << " beam " << place;
+    }
+  }
+  EXPECT_GT(compared, 60'000);
+  EXPECT_GT(painted, 5'000);
+  EXPECT_EQ(mapper.counts().missing,
+            std::count_if(scan.ranges_m.begin(), scan.ranges_m.end(), [](float r) { return std::isnan(r); }));
+}
+
+TEST(MapperLaser, BeamsThatTurnTheOtherWayGiveTheSameMap) {
+  sensors::RangeFinder left = panoramic(), right = panoramic();
+  left.angle_min_rad = -1.5;
+  left.count = 181;
+  right.angle_min_rad = left.beam_angle(180);
+  right.angle_increment_rad = -left.angle_increment_rad;
+  right.count = 181;
+  Mapper a(rig_with(left)), b(rig_with(right));
+  const Pose2 pose{2.0, 1.0, 0.2};
+  sensors::RangeScan scan = scan_of_room(left, pose, 6.0, 3.0);
+  a.insert(certain(pose), scan);
+  std::reverse(scan.ranges_m.begin(), scan.ranges_m.end());
+  b.insert(certain(pose), scan);
+  int different = 0;
+  for (int y = -10; y < 70; ++y)
+    for (int x = -10; x < 130; ++x) different += a.grid().at({x, y}) != b.grid().at({x, y});
+  EXPECT_LE(different, 3);  // cell centres within rounding of a border
+  EXPECT_GT(cells_in(a.grid()), 3000);
+}
+
+TEST(MapperLaser, NothingComesFromNanAndLittleFromInf) {
+  const sensors::RangeFinder finder = panoramic();
+  Mapper nothing(rig_with(finder)), inf(rig_with(finder)), seen(rig_with(finder));
+  sensors::RangeScan scan;
+  scan.ranges_m.assign(360, kNan);
+  nothing.insert(certain({}), scan);
+  EXPECT_EQ(cells_in(nothing.grid()), 0);
+  EXPECT_EQ(nothing.counts().missing, 360);
+
+  scan.ranges_m.assign(360, kInf);
+  inf.insert(certain({}), scan);
+  scan.ranges_m.assign(360, 5.0F);
+  seen.insert(certain({}), scan);
+  const FixedLogCommonality weak = inf.grid().at({40, 0}), strong = seen.grid().at({40, 0});
+  EXPECT_GT(evidence::evidence_for_empty(weak.value()), 0.0);
+  EXPECT_LT(weight(weak), 0.1 * weight(strong));
+  EXPECT_EQ(inf.grid().at({85, 0}), FixedLogCommonality{});  // beyond no_return_range_m
+  EXPECT_EQ(inf.counts().no_returns, 360);
+}
+
+TEST(MapperLaser, ReadingsOutsideTheRangeCountAsMissing) {
+  sensors::RangeFinder finder = panoramic();
+  Mapper mapper(rig_with(finder));
+  sensors::RangeScan scan;
+  for (int i = 0; i < 360; ++i) scan.ranges_m.push_back(i % 3 == 0 ? 0.05F : i % 3 == 1 ? 8.5F : -1.0F);
+  scan.ranges_m[0] = -kInf;
+  mapper.insert(certain({}), scan);
+  EXPECT_EQ(cells_in(mapper.grid()), 0);
+  EXPECT_EQ(mapper.counts().out_of_range, 360);
+}
+
+TEST(MapperLaser, BeamsBeyondTheMappedRangeAreFreeUpToIt) {
+  MapperParams params;
+  params.scan.max_range_m = 3.0;
+  Mapper mapper(rig_with(panoramic()), params);
+  sensors::RangeScan scan;
+  scan.ranges_m.assign(360, 5.0F);
+  mapper.insert(certain({}), scan);
+  EXPECT_EQ(grids::decide(mapper.grid().at({58, 0})), grids::CellState::kEmpty);
+  EXPECT_EQ(mapper.grid().at({61, 0}), FixedLogCommonality{});
+  EXPECT_EQ(mapper.grid().at({99, 0}), FixedLogCommonality{});
+}
+
+TEST(MapperLaser, TriangulationSpeaksWeaklyOfFarWalls) {
+  sensors::RangeFinder finder = panoramic();
+  finder.noise = {.sigma_0_m = 0.005, .k_per_m = 0.0045};
+  Mapper mapper(rig_with(finder));
+  const Pose2 pose{1.0, 2.0, 0.0};
+  mapper.insert(certain(pose), scan_of_room(finder, pose, 5.0, 4.0));
+  const double near = weight(mapper.grid().at({0, 40})), far = weight(mapper.grid().at({100, 40}));
+  EXPECT_GT(near, 2.0 * far);
+  EXPECT_GT(far, 0.0);
+}
+
+TEST(MapperLaser, AWallMetAtAGrazingAngleHasNoHoles) {
+  sensors::RangeFinder finder = panoramic();
+  Mapper mapper(rig_with(finder));
+  const Pose2 pose{0.5, 0.52, 0.0};  // half a metre beside a wall along x, seen up to 5 degrees
+  mapper.insert(certain(pose), scan_of_room(finder, pose, 6.0, 3.0));
+  for (int x = 12; x < 100; ++x) {  // up to the beam before the corner
+    const bool occupied =
+        weight(mapper.grid().at({x, 0})) > 0.0 && evidence::pignistic_occupied(mapper.grid().at({x, 0}).value()) > 0.5;
+    const bool below = evidence::pignistic_occupied(mapper.grid().at({x, -1}).value()) > 0.5;
+    EXPECT_TRUE(occupied || below) << x;
+  }
+}
+
+TEST(MapperLaser, AScanTakenWhileTurningIsCarriedAlongThePath) {
+  sensors::RangeFinder finder = panoramic();
+  finder.scan_time_s = 0.5;
+  const Pose2 middle{2.0, 1.4, 0.3};
+  const sensors::Timestamp time = 10'000'000'000;
+  std::vector<sensors::OdometryReading> rows;
+  for (int k = -10; k <= 10; ++k)  // 1 rad/s and 0.4 m/s
+    rows.push_back({time + k * 50'000'000, Pose2{5.0, 5.0, 1.0} * Pose2{0.02 * k, 0.0, 0.05 * k}});
+  const sensors::MotionPath path(rows);
+  sensors::RangeScan scan;
+  scan.time = time;
+  for (int i = 0; i < finder.count; ++i) {
+    const sensors::Timestamp now = time + sensors::from_seconds(finder.beam_time(i));
+    const Pose2 sensor = middle * path.motion(time, now);
+    scan.ranges_m.push_back(
+        static_cast<float>(distance_to_room(sensor.translation(), sensor.theta + finder.beam_angle(i), 6.0, 3.0)));
+  }
+  const auto misplaced = [](const grids::EvidentialGrid& grid) {
+    int wrong = 0;
+    for (int y = -20; y < 80; ++y)
+      for (int x = -20; x < 140; ++x) {
+        const bool inside = x >= 2 && x < 118 && y >= 2 && y < 58, outside = x < -2 || x > 121 || y < -2 || y > 61;
+        const double occupied = evidence::pignistic_occupied(grid.at({x, y}).value());
+        wrong += (inside && occupied > 0.5) || (outside && occupied < 0.5);
+      }
+    return wrong;
+  };
+  Mapper carried(rig_with(finder)), rigid(rig_with(finder));
+  carried.insert(certain(middle), scan, path);
+  rigid.insert(certain(middle), scan);
+  EXPECT_LE(misplaced(carried.grid()), 5);
+  EXPECT_GT(misplaced(rigid.grid()), 100);
+}
+
+}  // namespace
+}  // namespace credo::mapping
