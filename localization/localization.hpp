@@ -49,8 +49,9 @@ struct Localization {
   bool off_plan = false;            ///< much of the scan does not lie on the plan
   bool inconsistent = false;        ///< landmarks contradict each other
   bool contradicted = false;        ///< camera, range finder and wheels do not agree
-  bool doubted = false;    ///< lately the plan did not look as it should, and nothing has confirmed the pose since
-  bool elsewhere = false;  ///< another pose is far more plausible
+  bool doubted = false;     ///< lately the plan did not look as it should, and nothing has confirmed the pose since
+  bool broken_off = false;  ///< much of what was followed is not seen any more
+  bool elsewhere = false;   ///< another pose is far more plausible
   ProtectionLevels protection = {};
   Status status = Status::kInitializing;
   int detected = 0;                    ///< primitives in the scene

@@ -77,7 +77,8 @@ struct Limits {
 };
 
 bool is_contested(const Localization& localization) {
-  return localization.unrecognised || localization.off_plan || localization.inconsistent || localization.contradicted;
+  return localization.broken_off || localization.unrecognised || localization.off_plan || localization.inconsistent ||
+         localization.contradicted;
 }
 
 const char* too_little_seen(const Localization& localization) {
@@ -102,6 +103,7 @@ std::string reasons(const Localization& localization, const Limits& limits, bool
   say(localization.off_plan, "the scan does not lie on the plan");
   say(localization.inconsistent, "landmarks contradict each other");
   say(localization.contradicted, "camera, range finder and wheels contradict each other");
+  say(localization.broken_off, "what was followed is not seen any more");
   say(localization.doubted && !is_contested(localization), "just doubted, and not confirmed yet");
   say(localization.elsewhere, "another pose fits far better");
   say(!limits.position_known, "position too uncertain");

@@ -37,6 +37,7 @@ Localizer::State::State(const geometry::FloorPlan& plan, const sensors::Rig& ins
       fitter(map, instruments, params.fit),
       tracker(params.tracker),
       labels(map, params.contradictions_allowed),
+      continuity(params.continuity),
       misfit(params.misfit),
       monitor(wall_footprints(map), params.integrity),
       modules(map, params.integrity),
@@ -234,9 +235,9 @@ Integrity Localizer::State::watch() {
 void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   LocalizationEvidence& evidence = fit.evidence;
   evidence.tracks = tracker.tracks();
-  fix.matched = matched_before = evidence.matched;
   std::optional<Integrity> integrity;
   if (params.method == perception::Method::kDefault) {
+    fix.broken_off = broken_off && lost_sight();
     misfit.add(fit.observations, fit.solution);
     fix.inconsistent = misfit.contradicting();
     fix.estimate.covariance *= misfit.variance_factor();
@@ -244,6 +245,7 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
     fix.protection = integrity->protection;
     if (integrity->landmarks >= params.belief.least_in_sight) evidence.separation = integrity->separation;
   }
+  fix.matched = matched_before = evidence.matched;
   const evidence::BinaryMass before = history.empty() ? evidence::BinaryMass::vacuous() : history.latest().belief;
   trust.weigh(evidence, before, integrity ? &*integrity : nullptr, fix);
   if (fix.unrecognised || fix.off_plan) {
@@ -289,6 +291,8 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   const std::vector<Match>& matches = s.tracker.associate(scene);
 
   s.fit.new_matches.clear();
+  s.broken_off =
+      !s.history.empty() && s.continuity.breaks_off(scene, s.tracker.tracks(), matches, s.history.latest().time);
   s.jumped = s.found_elsewhere = false;
   // 3. The pose from what is matched; 4. the map for what has appeared, and the pose again.
   if (s.absolute)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/floor_plan.hpp"
+#include "localization/continuity.hpp"
 #include "localization/integrity_monitor.hpp"
 #include "localization/localization.hpp"
 #include "localization/localization_belief.hpp"
@@ -27,6 +28,7 @@ struct LocalizerParams {
   LandmarkMapParams map;
   SceneFitParams fit;
   LocalizationBeliefParams belief;
+  ContinuityParams continuity;
   MisfitParams misfit;
   IntegrityParams integrity;
   GlobalSearchParams search;

@@ -218,6 +218,13 @@ void check_status(const ParameterCheck& check, const StatusParams& p) {
   check.positive("max_protection_rad", p.max_protection_rad);
 }
 
+void check_continuity(const ParameterCheck& check, const ContinuityParams& p) {
+  check.at_least("least_tracks", p.least_tracks, 1);
+  check.share("usual", p.usual);
+  check.share("memory", p.memory);
+  check.share("broken_below", p.broken_below);
+}
+
 void check_misfit(const ParameterCheck& check, const MisfitParams& p) {
   check.positive("usual", p.usual);
   check.positive("outlier", p.outlier);
@@ -294,6 +301,7 @@ void check(const LocalizerParams& params) {
   check_search(check.in("search"), params.search);
   check_hypotheses(check.in("hypotheses"), params.hypotheses);
   check_status(check.in("status"), params.status);
+  check_continuity(check.in("continuity"), params.continuity);
   check_misfit(check.in("misfit"), params.misfit);
   check_trust(check.in("trust"), params.trust);
   check_constant_velocity(check.in("constant_velocity"), params.constant_velocity);

@@ -26,6 +26,7 @@ struct Localizer::State {
   SceneFitter fitter;
   tracking::Tracker tracker;
   TrackLabels labels;
+  Continuity continuity;
   Misfit misfit;
   IntegrityMonitor monitor;
   RepeatedModules modules;
@@ -39,6 +40,7 @@ struct Localizer::State {
   CalibratedPose wide;           ///< the same, less sure
   int matched_before = 0;        ///< primitives that the latest fix rests on
   int doubted = 0;               ///< acquisitions in a row in which the plan was not recognised
+  bool broken_off = false;       ///< in this acquisition: much of what was followed is not seen any more
   bool jumped = false;           ///< in this acquisition: the pose was found some way from where it was expected
   bool found_elsewhere = false;  ///< in this acquisition: the pose is another one than was thought
   PoseHistory history;
@@ -61,6 +63,7 @@ struct Localizer::State {
                  const geometry::PoseEstimate& step, bool odometry);
   void start_tracks(const perception::Scene& scene);
   [[nodiscard]] double quality(const SceneFit& of, const perception::Scene& scene) const;
+  [[nodiscard]] bool lost_sight() const;
   void search_pose(const perception::Scene& scene, bool odometry);
   bool match_anew(const perception::Scene& scene, const CalibratedPose& expected);
   [[nodiscard]] bool doubtful() const;

@@ -39,6 +39,11 @@ double Localizer::State::quality(const SceneFit& of, const Scene& scene) const {
   return localization_belief(of.evidence, params.belief).mass.pignistic() + params.matched_share_weight * share;
 }
 
+/// Far less is matched than in the acquisition before.
+bool Localizer::State::lost_sight() const {
+  return fit.evidence.matched < params.search_matched_below * matched_before;
+}
+
 /// Gathers the evidence about the pose. Primitives that were matched wrongly agree with the wrong pose that they make;
 /// the raw scan and the landmarks that should be in sight do not. Where these speak against the pose, everything is
 /// matched anew from the pose nearby from which the scan lies best on the plan, and what is believed more is kept.
@@ -47,15 +52,14 @@ void Localizer::State::search_pose(const Scene& scene, bool odometry) {
   if (!fit.evidence.scan_agreement) return;
   const bool off_plan = *fit.evidence.scan_agreement < params.search_below;
   const bool unrecognised = recognition_belief(fit.evidence, params.belief).no > 0.0;
-  const bool lost_sight = fit.evidence.matched < params.search_matched_below * matched_before;
-  if (!off_plan && !unrecognised && !lost_sight) return;
+  if (!off_plan && !unrecognised && !lost_sight()) return;
   wide = predicted;
   widen(wide, doubt());
   if (match_anew(scene, wide) || odometry) return;
   const double turn = params.unforeseen_turn_sigma_rad;
   widen(wide, Eigen::Vector3d(0.0, 0.0, turn * turn).asDiagonal());
   // Without wheels nothing but what goes on to be matched tells that the robot has not turned round.
-  if (!match_anew(scene, wide) && lost_sight) jumped = true;
+  if (!match_anew(scene, wide) && lost_sight()) jumped = true;
 }
 
 /// Matches everything from the pose that the scan fits best about an expected one.

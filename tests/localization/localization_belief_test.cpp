@@ -212,6 +212,8 @@ const std::vector<Case> kCases{
      "the pose contradicts its prediction"},
     {"Unrecognised", [](Judged& j) { j.localization.unrecognised = true; }, kUncertain,
      "landmarks that should be in sight are not seen"},
+    {"BrokenOff", [](Judged& j) { j.localization.broken_off = true; }, kUncertain,
+     "what was followed is not seen any more"},
     {"Inconsistent", [](Judged& j) { j.localization.inconsistent = true; }, kUncertain,
      "landmarks contradict each other"},
     {"OffPlan", [](Judged& j) { j.localization.off_plan = true; }, kUncertain, "the scan does not lie on the plan"},
