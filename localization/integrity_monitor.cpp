@@ -45,6 +45,12 @@ void leave_out(const auto& told, StateMatrix& information, StateVector& gradient
   gradient += told.by_state.transpose() * told.weighted_residual;
 }
 
+/// The reverse.
+void take_in(const auto& told, StateMatrix& information, StateVector& gradient) {
+  information += told.by_state.transpose() * told.information * told.by_state;
+  gradient -= told.by_state.transpose() * told.weighted_residual;
+}
+
 ProbabilityInterval fault_of(bool wall, double belief, const IntegrityParams& params) {
   const std::size_t of = fault_class(wall, belief, params);
   return of == kWallFaultClass ? params.wall_fault : params.point_faults[of].fault;
@@ -84,8 +90,9 @@ IntegrityMonitor::IntegrityMonitor(std::vector<WallFootprint> walls, const Integ
 }
 
 void IntegrityMonitor::add(const ProbabilityInterval& probability, const Matrix3d& covariance, const Vector3d& shift) {
-  hypotheses_.push_back({probability, shift.head<2>().norm(), std::abs(shift(2)), largest_sigma(covariance),
-                         std::sqrt(std::max(0.0, covariance(2, 2)))});
+  hypotheses_.push_back({probability, shift.head<2>().norm(), std::abs(shift(2)),
+                         sigma_scale_ * largest_sigma(covariance),
+                         sigma_scale_ * std::sqrt(std::max(0.0, covariance(2, 2)))});
 }
 
 void IntegrityMonitor::add_undetermined(const ProbabilityInterval& probability) {
@@ -269,11 +276,17 @@ ProbabilityInterval IntegrityMonitor::expected_faults(bool walls) const {
 }
 
 /// Three wrong points and more: whichever they are, the walls and the prediction are right. Two and a wall likewise.
-void IntegrityMonitor::add_points(const PoseSolution& solution) {
-  StateMatrix information = solution.information;
-  StateVector gradient = StateVector::Zero();
-  for (const Landmark& landmark : landmarks_)
-    if (!landmark.wall) leave_out(landmark, information, gradient);
+/// What the points make of the misfit is wrong, too, and what walls make of it is the walls' alone.
+void IntegrityMonitor::add_points(const PoseSolution& solution, double walls_misfit) {
+  StateMatrix information = solution.prior_information;
+  StateVector gradient = -(solution.prior_information * solution.step);
+  const double weight = 1.0 / std::max(1.0, walls_misfit);
+  for (Landmark& landmark : landmarks_) {
+    if (!landmark.wall) continue;
+    landmark.information *= weight;
+    landmark.weighted_residual *= weight;
+    take_in(landmark, information, gradient);
+  }
   const ProbabilityInterval points = expected_faults(false);
   add_without(information, gradient, either(at_least(kPointsTogether, points), params_.points_together));
   for (const Landmark& landmark : landmarks_) {
@@ -296,26 +309,22 @@ void IntegrityMonitor::add_all(const PoseSolution& solution) {
 }
 
 Integrity IntegrityMonitor::assess(const PoseSolution& solution, std::span<const double> beliefs,
-                                   double variance_factor, std::span<const Alias> aliases) {
+                                   const VarianceFactors& misfit, std::span<const Alias> aliases) {
   constexpr double kFarthest_m = 100.0;
   Integrity integrity;
   hypotheses_.clear();
   list_landmarks(solution, beliefs);
   integrity.landmarks = static_cast<int>(landmarks_.size());
-  const Matrix3d P = solution.pose.covariance();
-  hypotheses_.push_back({{1.0, 1.0}, 0.0, 0.0, largest_sigma(P), std::sqrt(P(2, 2))});  // all is right
+  sigma_scale_ = params_.sigma_overbound * std::sqrt(std::max(1.0, misfit.all));
+  add({1.0, 1.0}, solution.pose.covariance(), Vector3d::Zero());  // all is right
   if (StateMatrix covariance; !landmarks_.empty() && invert(solution.information, covariance)) {
     add_landmarks(covariance, integrity);
     add_walls(solution);
-    add_points(solution);
-    add_all(solution);
     add_instruments(solution, covariance, integrity);
     add_prediction(solution, covariance, integrity);
-  }
-  const double widened = params_.sigma_overbound * std::sqrt(std::max(1.0, variance_factor));
-  for (FaultHypothesis& h : hypotheses_) {
-    h.sigma_m *= widened;
-    h.sigma_rad *= widened;
+    sigma_scale_ = params_.sigma_overbound;
+    add_all(solution);
+    add_points(solution, misfit.walls);
   }
   constexpr double kExactly = 1e-3;
   for (const Alias& alias : aliases)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "localization/localization.hpp"
+#include "localization/misfit.hpp"
 #include "localization/moved_wall.hpp"
 #include "localization/pose_solver.hpp"
 #include "localization/protection_level.hpp"
@@ -25,14 +26,15 @@ struct FaultPrior {
 struct IntegrityParams {
   double risk = 1e-5;  ///< of position or heading beyond its protection level, per acquisition; half for each
   /// The measured frequency of wrong matches of points (corners, edges, others) among tracks of equal belief, with its
-  /// Clopper-Pearson interval at 95 %, by growing belief: 22 of 11 161, 185 of 36 940 and 147 of 149 823 where nothing
-  /// else speaks against the pose, over 120 simulated drives through 20 random buildings (`credo campaign faults`).
-  std::array<FaultPrior, 3> point_faults{{{0.0, {1.2e-3, 3.0e-3}}, {0.55, {4.3e-3, 5.8e-3}}, {0.99, {8.3e-4, 1.2e-3}}}};
-  /// The same of walls: 1 of 71 488.
-  ProbabilityInterval wall_fault{3.5e-7, 7.8e-5};
-  /// Three points and more are wrong at once, as where something that the plan does not have looks like what it has: 5
-  /// of 8820 acquisitions.
-  ProbabilityInterval points_together{1.8e-4, 1.3e-3};
+  /// Clopper-Pearson interval at 95 %, by growing belief: 109 of 34 181, 609 of 108 418 and 613 of 436 782 where
+  /// nothing else speaks against the pose, over 360 simulated drives through 60 random buildings (`credo campaign
+  /// faults`).
+  std::array<FaultPrior, 3> point_faults{{{0.0, {2.6e-3, 3.8e-3}}, {0.55, {5.2e-3, 6.1e-3}}, {0.99, {1.3e-3, 1.5e-3}}}};
+  /// The same of walls: 12 of 219 680.
+  ProbabilityInterval wall_fault{2.8e-5, 9.5e-5};
+  /// Three points and more are wrong at once, as where something that the plan does not have looks like what it has:
+  /// 33 of 27 264 acquisitions.
+  ProbabilityInterval points_together{8.3e-4, 1.7e-3};
   /// Of the errors' standard deviations, so that their tails lie below a normal one's. Measured is 1.3 for position and
   /// heading, where 1 in 10 000 is exceeded (15 146 acquisitions of 200 drives).
   double sigma_overbound = 1.7;
@@ -82,10 +84,10 @@ class IntegrityMonitor {
   explicit IntegrityMonitor(std::vector<WallFootprint> walls, const IntegrityParams& params = {});
 
   /// \param beliefs  of each observation of the solution: BetP(YES) that its track exists
-  /// \param variance_factor  Misfit::variance_factor; below 1 it does not make anything more certain
+  /// \param misfit  what is below 1 makes nothing more certain
   /// \param aliases  other places where the robot may be
   [[nodiscard]] Integrity assess(const PoseSolution& solution, std::span<const double> beliefs,
-                                 double variance_factor = 1.0, std::span<const Alias> aliases = {});
+                                 const VarianceFactors& misfit = {}, std::span<const Alias> aliases = {});
 
  private:
   /// All that one landmark says, as one observation.
@@ -106,7 +108,7 @@ class IntegrityMonitor {
   void separate_instrument(const PoseState::Matrix& information, const PoseState::Vector& gradient,
                            const ProbabilityInterval& probability, const PoseState::Matrix& covariance,
                            Integrity& integrity);
-  void add_points(const PoseSolution& solution);
+  void add_points(const PoseSolution& solution, double walls_misfit);
   void add_all(const PoseSolution& solution);
   void add_without(const PoseState::Matrix& information, const PoseState::Vector& gradient,
                    const ProbabilityInterval& probability);
@@ -119,6 +121,7 @@ class IntegrityMonitor {
   std::vector<Landmark> landmarks_;
   std::vector<Eigen::Matrix<double, PoseState::kSize, 2>> by_landmark_;  ///< P H^T of each
   std::vector<FaultHypothesis> hypotheses_;
+  double sigma_scale_ = 1.0;  ///< of the hypotheses that are added
   ProtectionLevel protection_level_;
 };
 

@@ -227,7 +227,7 @@ Integrity Localizer::State::watch() {
         std::find_if(tracker.tracks().begin(), tracker.tracks().end(), [id](const Track& t) { return t.id == id; });
     landmark_beliefs.push_back(track == tracker.tracks().end() ? kUntracked : track->existence.pignistic());
   }
-  return monitor.assess(fit.solution, landmark_beliefs, misfit.variance_factor(),
+  return monitor.assess(fit.solution, landmark_beliefs, misfit.variance_factors(),
                         modules.find(fit.observations, fit.solution));
 }
 
@@ -240,7 +240,7 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
     fix.broken_off = broken_off && lost_sight();
     misfit.add(fit.observations, fit.solution);
     fix.inconsistent = misfit.contradicting();
-    fix.estimate.covariance *= misfit.variance_factor();
+    fix.estimate.covariance *= misfit.variance_factors().all;
     integrity = watch();
     fix.protection = integrity->protection;
     if (integrity->landmarks >= params.belief.least_in_sight) evidence.separation = integrity->separation;

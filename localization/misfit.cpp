@@ -9,17 +9,28 @@
 namespace credo::localization {
 
 Misfit::Misfit(const MisfitParams& params)
-    : params_(params), squares_(params.usual * params.usual_dofs), dofs_(params.usual_dofs) {}
+    : params_(params), all_{params.usual * params.usual_dofs, params.usual_dofs}, walls_(all_) {}
 
 void Misfit::add(std::span<const Observation> observations, const PoseSolution& solution) {
   assert(observations.size() == solution.mahalanobis_squared.size());
-  if (observations.empty()) return;
-  squares_ *= params_.memory;
-  dofs_ *= params_.memory;
+  Sum all, walls;
   for (std::size_t k = 0; k < observations.size(); ++k) {
-    squares_ += std::min(solution.mahalanobis_squared[k], params_.outlier);
-    dofs_ += observations[k].dimension();
+    const double square = std::min(solution.mahalanobis_squared[k], params_.outlier);
+    const int dofs = observations[k].dimension();
+    all.squares += square;
+    all.dofs += dofs;
+    if (observations[k].kind != ObservationKind::kWall) continue;
+    walls.squares += square;
+    walls.dofs += dofs;
   }
+  remember(all, all_);
+  remember(walls, walls_);
+}
+
+void Misfit::remember(const Sum& latest, Sum& sum) const {
+  if (latest.dofs == 0.0) return;  // it says nothing
+  sum.squares = params_.memory * sum.squares + latest.squares;
+  sum.dofs = params_.memory * sum.dofs + latest.dofs;
 }
 
 }  // namespace credo::localization

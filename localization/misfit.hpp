@@ -19,6 +19,12 @@ struct MisfitParams {
   double contradiction = 4.0;  ///< from this variance factor on landmarks contradict each other
 };
 
+/// By how much errors are larger than their covariances say, squared: about 1 where nothing is wrong.
+struct VarianceFactors {
+  double all = 1.0;
+  double walls = 1.0;  ///< of what walls alone say
+};
+
 /// How far what is matched contradicts itself, lately: the variance of unit weight a posteriori of least squares (also
 /// known as Birge's ratio, squared). Sensors in another state than their models have them, a plan less exact than it
 /// says, and wrong matches that agree with each other and with nothing else show in it.
@@ -29,14 +35,21 @@ class Misfit {
   /// One acquisition. \param observations  those of the solution
   void add(std::span<const Observation> observations, const PoseSolution& solution);
 
-  /// By how much errors are larger than the covariance of the pose says, squared: about 1 where nothing is wrong.
-  [[nodiscard]] double variance_factor() const { return squares_ / (dofs_ * params_.usual); }
-  [[nodiscard]] bool contradicting() const { return variance_factor() > params_.contradiction; }
+  [[nodiscard]] VarianceFactors variance_factors() const {
+    return {all_.squares / (all_.dofs * params_.usual), walls_.squares / (walls_.dofs * params_.usual)};
+  }
+  [[nodiscard]] bool contradicting() const { return variance_factors().all > params_.contradiction; }
 
  private:
+  /// Squared residuals and degrees of freedom, the latest ones weighing most.
+  struct Sum {
+    double squares = 0.0;
+    double dofs = 0.0;
+  };
+  void remember(const Sum& latest, Sum& sum) const;
+
   MisfitParams params_;
-  double squares_ = 0.0;  ///< of the residuals, the latest ones weighing most
-  double dofs_ = 0.0;     ///< likewise
+  Sum all_, walls_;
 };
 
 }  // namespace credo::localization

@@ -66,13 +66,12 @@ class Monitor : public ::testing::Test {
  protected:
   Integrity assess(const std::vector<Observation>& seen, double belief = 0.9, std::span<const Alias> aliases = {}) {
     solution_ = PoseSolver().solve(prior_, seen);
-    return IntegrityMonitor({}, params_)
-        .assess(solution_, std::vector<double>(seen.size(), belief), variance_factor_, aliases);
+    return IntegrityMonitor({}, params_).assess(solution_, std::vector<double>(seen.size(), belief), misfit_, aliases);
   }
   [[nodiscard]] double position_error() const { return solution_.pose.pose.translation().norm(); }
 
   IntegrityParams params_;
-  double variance_factor_ = 1.0;
+  VarianceFactors misfit_;
   CalibratedPose prior_ = prediction(0.1, 0.05);
   PoseSolution solution_;
 };
@@ -95,9 +94,9 @@ TEST_F(Monitor, TheLevelGrowsWithTheMisfitAndDoesNotShrinkWithIt) {
   params_.point_faults.fill({0.0, {0.0, 0.0}});
   params_.points_together = params_.instrument_fault = params_.prediction_fault = {0.0, 0.0};
   const double usual = assess(surroundings(6, 6)).protection.position_high_m;
-  variance_factor_ = 4.0;
+  misfit_ = {.all = 4.0, .walls = 4.0};
   EXPECT_NEAR(assess(surroundings(6, 6)).protection.position_high_m, 2.0 * usual, 0.05 * usual);
-  variance_factor_ = 0.25;
+  misfit_ = {.all = 0.25, .walls = 0.25};
   EXPECT_DOUBLE_EQ(assess(surroundings(6, 6)).protection.position_high_m, usual);
 }
 
@@ -289,6 +288,16 @@ TEST_F(Monitor, PointsThatAreWrongTogetherAreWorthNoMoreEither) {
   const Integrity integrity = assess(surroundings(12, 12));
   EXPECT_LT(integrity.protection.position_low_m, 0.1);
   EXPECT_GT(integrity.protection.position_high_m, 3.0 * 0.1);
+}
+
+TEST_F(Monitor, OfPointsThatAreWrongTheMisfitSaysNothingOfTheRest) {
+  params_.point_faults.fill({0.0, {0.0, 0.0}});
+  params_.points_together = {1e-3, 1e-3};
+  const double usual = assess(surroundings(12, 12)).protection.position_high_m;
+  misfit_ = {.all = 4.0, .walls = 1.0};
+  EXPECT_NEAR(assess(surroundings(12, 12)).protection.position_high_m, usual, 0.02 * usual);
+  misfit_ = {.all = 1.0, .walls = 4.0};
+  EXPECT_GT(assess(surroundings(12, 12)).protection.position_high_m, 1.5 * usual);
 }
 
 TEST_F(Monitor, WithoutAPredictionTheyAreWorthNothing) {

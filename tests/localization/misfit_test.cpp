@@ -23,9 +23,9 @@ void add(Misfit& misfit, const std::vector<double>& squares) {
 
 TEST(Misfit, IsUsualBeforeAnythingIsSeen) {
   Misfit misfit;
-  EXPECT_DOUBLE_EQ(misfit.variance_factor(), 1.0);
+  EXPECT_DOUBLE_EQ(misfit.variance_factors().all, 1.0);
   add(misfit, {});
-  EXPECT_DOUBLE_EQ(misfit.variance_factor(), 1.0);
+  EXPECT_DOUBLE_EQ(misfit.variance_factors().all, 1.0);
   EXPECT_FALSE(misfit.contradicting());
 }
 
@@ -40,7 +40,7 @@ TEST(Misfit, TellsByHowMuchErrorsAreLargerThanTheirModels) {
       for (double& square : squares) square = std::pow(error(random), 2);
       add(misfit, squares);
     }
-    EXPECT_NEAR(misfit.variance_factor(), scale * scale, 0.1 * scale * scale) << scale;
+    EXPECT_NEAR(misfit.variance_factors().all, scale * scale, 0.1 * scale * scale) << scale;
   }
 }
 
@@ -51,7 +51,23 @@ TEST(Misfit, CountsDimensions) {
   PoseSolution solution;
   solution.mahalanobis_squared = {2.0, 6.0};
   misfit.add(std::vector<Observation>(2, point), solution);
-  EXPECT_DOUBLE_EQ(misfit.variance_factor(), 2.0);
+  EXPECT_DOUBLE_EQ(misfit.variance_factors().all, 2.0);
+}
+
+TEST(Misfit, OfWallsIsTheirOwn) {
+  Misfit misfit({.usual = 1.0, .memory = 0.0});
+  std::vector<Observation> seen(2);
+  seen[0].kind = ObservationKind::kWall;
+  seen[1].kind = ObservationKind::kBearing;
+  PoseSolution solution;
+  solution.mahalanobis_squared = {4.0, 2.0};
+  misfit.add(seen, solution);
+  EXPECT_DOUBLE_EQ(misfit.variance_factors().walls, 2.0);
+  EXPECT_DOUBLE_EQ(misfit.variance_factors().all, 2.0);
+  solution.mahalanobis_squared = {8.0};
+  misfit.add({&seen[1], 1}, solution);
+  EXPECT_DOUBLE_EQ(misfit.variance_factors().walls, 2.0) << "none is seen";
+  EXPECT_DOUBLE_EQ(misfit.variance_factors().all, 8.0);
 }
 
 TEST(Misfit, ManyContradictOneIsAnOutlier) {
@@ -69,11 +85,11 @@ TEST(Misfit, ManyContradictOneIsAnOutlier) {
 TEST(Misfit, Fades) {
   Misfit misfit;
   add(misfit, std::vector<double>(20, 16.0));
-  double before = misfit.variance_factor();
+  double before = misfit.variance_factors().all;
   for (int i = 0; i < 20; ++i) {
     add(misfit, std::vector<double>(20, 1.3));
-    EXPECT_LT(misfit.variance_factor(), before);
-    before = misfit.variance_factor();
+    EXPECT_LT(misfit.variance_factors().all, before);
+    before = misfit.variance_factors().all;
   }
   EXPECT_NEAR(before, 1.0, 0.01);
 }
