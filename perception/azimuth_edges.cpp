@@ -25,6 +25,9 @@ constexpr double kMedianToSigma = 1.4826;
 // filter's own averaging.
 constexpr double kInterpolationNoise = 0.816;
 
+/// A threshold of the filter's answers, as they are.
+std::int16_t as_answer(double threshold) { return static_cast<std::int16_t>(std::min(threshold, 32767.0)); }
+
 /// Marks the columns where the answer has a local extremum of at least `least`. Side by side, without branches.
 /// \param response  can be read one column before and one behind
 void mark_extrema(const std::int16_t* response, int columns, std::int16_t least, std::uint8_t* marks) {
@@ -147,23 +150,21 @@ void AzimuthEdgeFilter::filter_row(const AnnulusTable& table, const std::uint8_t
   response[columns] = response[0];
 }
 
-void AzimuthEdgeFilter::measure_widths(int columns, int least) {
+void AzimuthEdgeFilter::measure_widths(int columns, std::int16_t least) {
   constexpr int kAlone = 6;  // columns on both sides without another step
   const std::int16_t* response = response_.data() + kMargin;
-  for (int i = kAlone; i < columns - kAlone; ++i) {
-    const int here = std::abs(response[i]);
-    if (here < least) continue;
+  mark_extrema(response, columns, least, marks_.data());
+  for_each_mark(marks_.data(), columns, [&](int i) {
+    if (i < kAlone || i >= columns - kAlone) return;
     const int sign = response[i] > 0 ? 1 : -1;
-    const int before = sign * response[i - 1];
-    const int after = sign * response[i + 1];
-    if (here < before || here <= after) continue;
+    const int here = sign * response[i], before = sign * response[i - 1], after = sign * response[i + 1];
     int lowest = 0;
     for (int j = i - kAlone; j <= i + kAlone; ++j) lowest = std::min(lowest, sign * response[j]);
     const int aside = std::max(sign * response[i - kAlone], sign * response[i + kAlone]);
-    if (6 * -lowest > here || 4 * aside > here) continue;
+    if (6 * -lowest > here || 4 * aside > here) return;
     // A Gaussian of width w has the curvature -1/w^2 of its height at its top, and nearly so over three columns.
     widths_.push_back(static_cast<float>(std::sqrt(here / (2.0 * here - before - after))));
-  }
+  });
 }
 
 void AzimuthEdgeFilter::measure(const AnnulusTable& table, const std::uint8_t* pixels) {
@@ -174,7 +175,7 @@ void AzimuthEdgeFilter::measure(const AnnulusTable& table, const std::uint8_t* p
   int total = 0;
   levels_ = {};
   widths_.clear();
-  const int clear_step = static_cast<int>(4.0 * params_.least_step * gain_);
+  const std::int16_t clear_step = as_answer(4.0 * params_.least_step * gain_);
   for (int row = 0; row < static_cast<int>(table.rows().size()); row += params_.noise_row_step) {
     filter_row(table, pixels, row);
     const int columns = table.rows()[row].columns;
@@ -199,7 +200,7 @@ void AzimuthEdgeFilter::measure(const AnnulusTable& table, const std::uint8_t* p
 
 void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixels, std::vector<EdgeHit>& hits) {
   const double threshold = std::max(params_.least_step * gain_, params_.least_step_sigmas * noise_ * noise_gain_);
-  const auto least = static_cast<std::int16_t>(std::min(threshold, 32767.0));
+  const std::int16_t least = as_answer(threshold);
   const double saturated_sample = params_.saturated_level * AnnulusTable::kScale;
   for (int row = 0; row < static_cast<int>(table.rows().size()); ++row) {
     filter_row(table, pixels, row);

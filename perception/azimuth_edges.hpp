@@ -61,7 +61,7 @@ class AzimuthEdgeFilter {
   static constexpr int kMargin = 8;  ///< wrapped samples on each side of a row
 
   void filter_row(const AnnulusTable& table, const std::uint8_t* pixels, int row);
-  void measure_widths(int columns, int least);
+  void measure_widths(int columns, std::int16_t least);
   [[nodiscard]] bool usable(const AnnulusTable& table, int row, int column) const;
   [[nodiscard]] bool saturates(int column) const;
   void add_hits(const AnnulusRow& circle, int row, std::span<const int> columns, std::vector<EdgeHit>& hits) const;
