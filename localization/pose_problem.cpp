@@ -122,13 +122,19 @@ PoseProblem::Moments PoseProblem::moments_root(const PoseState::Vector& x) {
   const PoseState::Vector gradient = prior_.information * step;
   Moments moments;
   moments << prior_.information, gradient, gradient.transpose(), step.dot(gradient);
-  const auto count = static_cast<Eigen::Index>(2 * terms_.size());
-  if (rows_.rows() < count) rows_.resize(count, Eigen::NoChange);
+  const auto most = static_cast<Eigen::Index>(2 * terms_.size());
+  if (rows_.rows() < most) rows_.resize(most, Eigen::NoChange);
+  Eigen::Index count = 0;
   for (std::size_t k = 0; k < terms_.size(); ++k) {
     const ObservationTerm& term = terms_[k];
     Eigen::Matrix<double, 2, PoseState::kSize + 1> raw;
     raw << term.by_state + term.by_step, term.residual + term.by_step * step;
-    rows_.middleRows<2>(static_cast<Eigen::Index>(2 * k)) = term.whitener * raw;
+    if (observations_[k].dimension() == 1) {  // the second row is idle
+      rows_.row(count++) = term.whitener(0, 0) * raw.row(0);
+      continue;
+    }
+    rows_.middleRows<2>(count) = term.whitener * raw;
+    count += 2;
   }
   const auto rows = rows_.topRows(count);
   moments.triangularView<Eigen::Upper>() += rows.transpose().lazyProduct(rows);
