@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <numbers>
 
 #include "geometry/angles.hpp"
@@ -46,17 +48,46 @@ std::int16_t largest(const std::int16_t* samples, int columns) {
   return found;
 }
 
-/// The columns that are marked, growing. Most are not: eight are looked at together, the first in the lowest byte.
+/// How often values were met. Neighbours are alike: counted in one place, each would wait for the one before it.
+template <int kBins>
+class Histogram {
+ public:
+  void add(int column, int bin) { ++places_[column % kPlaces][bin]; }
+  [[nodiscard]] std::array<int, kBins> counts() const {
+    std::array<int, kBins> sum{};
+    for (const auto& place : places_) std::ranges::transform(sum, place, sum.begin(), std::plus());
+    return sum;
+  }
+
+ private:
+  static constexpr int kPlaces = 4;
+  std::array<std::array<int, kBins>, kPlaces> places_{};
+};
+
+/// The columns that are marked, growing. Eight are looked at together, the first in the lowest byte. Most often two of
+/// them are marked, or one, or none: two are listed whatever there is, as a branch that goes either way costs more.
 /// \param columns  a multiple of 8
 /// \param marks    0 or 1
-template <class Visit>
-void for_each_mark(const std::uint8_t* marks, int columns, Visit&& visit) {
+/// \param listed   memory for as many columns, and two
+std::span<int> list_marks(const std::uint8_t* marks, int columns, std::vector<int>& listed) {
   static_assert(std::endian::native == std::endian::little);
-  std::uint64_t word = 0;
-  for (int first = 0; first < columns; first += static_cast<int>(sizeof word)) {
+  constexpr std::uint64_t kOnes = 0x0101010101010101;
+  assert(listed.size() >= static_cast<std::size_t>(columns) + 2);
+  int* end = listed.data();
+  for (int first = 0; first < columns; first += 8) {
+    std::uint64_t word = 0;
     std::memcpy(&word, marks + first, sizeof word);
-    for (; word != 0; word &= word - 1) visit(first + std::countr_zero(word) / 8);
+    int* next = end;
+    end += word * kOnes >> 56;  // the sum of the bytes
+    const auto list_lowest = [&] {
+      *next++ = first + std::countr_zero(word) / 8;
+      word &= word - 1;
+    };
+    list_lowest();
+    list_lowest();
+    while (word != 0) list_lowest();
   }
+  return {listed.data(), end};
 }
 
 /// exp(-x^2 / 2), looked up to 1e-4: how far the answers to two steps at a distance of x widths overlap.
@@ -100,7 +131,7 @@ AzimuthEdgeFilter::AzimuthEdgeFilter(const EdgeFilterParams& params, double colu
       marks_(max_columns),
       response_(max_columns + 2 * kMargin) {
   widths_.reserve(samples_.size());
-  columns_.reserve(marks_.size());
+  columns_.resize(marks_.size() + 2);
   pairs_.reserve(marks_.size());
   shifts_.reserve(marks_.size());
   const double sigma = std::max(1.0, params.sigma_px / column_px);  // in columns, at least one
@@ -154,38 +185,40 @@ void AzimuthEdgeFilter::measure_widths(int columns, std::int16_t least) {
   constexpr int kAlone = 6;  // columns on both sides without another step
   const std::int16_t* response = response_.data() + kMargin;
   mark_extrema(response, columns, least, marks_.data());
-  for_each_mark(marks_.data(), columns, [&](int i) {
-    if (i < kAlone || i >= columns - kAlone) return;
+  for (const int i : list_marks(marks_.data(), columns, columns_)) {
+    if (i < kAlone || i >= columns - kAlone) continue;
     const int sign = response[i] > 0 ? 1 : -1;
     const int here = sign * response[i], before = sign * response[i - 1], after = sign * response[i + 1];
     int lowest = 0;
     for (int j = i - kAlone; j <= i + kAlone; ++j) lowest = std::min(lowest, sign * response[j]);
     const int aside = std::max(sign * response[i - kAlone], sign * response[i + kAlone]);
-    if (6 * -lowest > here || 4 * aside > here) return;
+    if (6 * -lowest > here || 4 * aside > here) continue;
     // A Gaussian of width w has the curvature -1/w^2 of its height at its top, and nearly so over three columns.
     widths_.push_back(static_cast<float>(std::sqrt(here / (2.0 * here - before - after))));
-  });
+  }
 }
 
 void AzimuthEdgeFilter::measure(const AnnulusTable& table, const std::uint8_t* pixels) {
   constexpr int kBins = 512;
   constexpr int kBinWidth = 4;
   constexpr std::size_t kLeastWidths = 20;
-  std::array<int, kBins> counts{};
+  Histogram<kBins> answers;
+  Histogram<256> levels;
   int total = 0;
-  levels_ = {};
   widths_.clear();
   const std::int16_t clear_step = as_answer(4.0 * params_.least_step * gain_);
   for (int row = 0; row < static_cast<int>(table.rows().size()); row += params_.noise_row_step) {
     filter_row(table, pixels, row);
     const int columns = table.rows()[row].columns;
     for (int i = 0; i < columns; ++i) {
-      ++counts[std::min(kBins - 1, std::abs(response_[kMargin + i]) / kBinWidth)];
-      if (table.usable(row, i)) ++levels_[samples_[kMargin + i] / AnnulusTable::kScale];
+      answers.add(i, std::min(kBins - 1, std::abs(response_[kMargin + i]) / kBinWidth));
+      if (table.usable(row, i)) levels.add(i, samples_[kMargin + i] / AnnulusTable::kScale);
     }
     total += columns;
     measure_widths(columns, clear_step);
   }
+  levels_ = levels.counts();
+  const std::array<int, kBins> counts = answers.counts();
   int below = 0;
   int bin = 0;
   while (bin < kBins - 1 && 2 * (below + counts[bin]) < total) below += counts[bin++];
@@ -208,14 +241,14 @@ void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixe
     const int columns = circle.columns;
     mark_extrema(response_.data() + kMargin, columns, least, marks_.data());
     row_saturates_ = largest(samples_.data() + kMargin, columns) > saturated_sample;
-    columns_.clear();
-    for_each_mark(marks_.data(), columns, [&](int column) {
-      if (usable(table, row, column)) columns_.push_back(column);
-    });
+    std::span<int> found = list_marks(marks_.data(), columns, columns_);
+    if (!table.all_usable()) {
+      const auto hidden = std::ranges::remove_if(found, [&](int column) { return !usable(table, row, column); });
+      found = found.first(found.size() - hidden.size());
+    }
     const std::size_t before = hits.size();
-    for (std::size_t first = 0; first < columns_.size(); first += kHitLanes)
-      add_hits(circle, row,
-               std::span(columns_).subspan(first, std::min<std::size_t>(kHitLanes, columns_.size() - first)), hits);
+    for (std::size_t first = 0; first < found.size(); first += kHitLanes)
+      add_hits(circle, row, found.subspan(first, std::min<std::size_t>(kHitLanes, found.size() - first)), hits);
     separate(circle, std::span(hits).subspan(before));
   }
 }
@@ -271,7 +304,6 @@ void AzimuthEdgeFilter::separate(const AnnulusRow& circle, std::span<EdgeHit> hi
 
 /// Whether the filter at a column takes in usable samples only.
 bool AzimuthEdgeFilter::usable(const AnnulusTable& table, int row, int column) const {
-  if (table.all_usable()) return true;
   const int columns = table.rows()[row].columns;
   for (int i = -kReach; i <= kReach; ++i)
     if (!table.usable(row, (column + i + columns) % columns)) return false;

@@ -82,7 +82,7 @@ class AzimuthEdgeFilter {
   bool row_saturates_ = false;          ///< the row that is looked at
   std::vector<std::uint8_t> marks_;     ///< by column: whether there is an extremum
   std::vector<float> widths_;           ///< scratch of measure()
-  std::vector<int> columns_;            ///< of the row's hits
+  std::vector<int> columns_;            ///< of the row's hits, and room for two more
   std::vector<int> pairs_;              ///< hits of the row whose next one is near
   std::vector<double> shifts_;          ///< of the row's hits by their neighbours [rad]
   std::vector<std::int16_t> response_;  ///< kMargin + columns + kMargin
