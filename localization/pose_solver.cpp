@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -21,6 +22,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
+constexpr double kSettled = 1e-6;  ///< change of the cost, half a sum of squared standard deviations
 using ScanColumns = Eigen::Matrix<double, PoseState::kSize, 3>;
 
 geometry::Pose2 pose_of(const PoseState::Vector& x) {
@@ -101,6 +103,8 @@ PoseState::Vector PoseSolver::State::settle(Start start) {
   problem.reweight(x, scale(), bounded);
   if (start == Start::kAll) problem.trust_all();  // far from the solution, residuals say nothing of outliers
   for (int i = 0; i < params.reweightings; ++i) {
+    // Near the solution a step is enough, as the weights change after it.
+    solver.options.function_tolerance = i == 0 ? kSettled : std::numeric_limits<double>::infinity();
     minimise(x);
     problem.reweight(x, scale(), bounded);
   }
