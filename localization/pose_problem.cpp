@@ -20,13 +20,19 @@ using Eigen::Vector3d;
 
 /// Squared residual per degree of freedom in standard deviations.
 double normalised_square(const Observation& o, const ResidualCovariance& covariance, const Vector2d& residual) {
-  return residual.dot(covariance.whole().inverse() * residual) / o.dimension();
+  const Matrix2d whole = covariance.whole();
+  if (o.dimension() == 1) return residual.x() * residual.x() / whole(0, 0);
+  return residual.dot(whole.inverse() * residual) / o.dimension();
 }
 
-/// U, upper triangular, with U^T U = covariance^-1.
-Matrix2d whitener(const Matrix2d& covariance) {
+/// U, upper triangular, with U^T U = covariance^-1; of one dimension, the first row alone.
+Matrix2d whitener(const Matrix2d& covariance, int dimension) {
+  Matrix2d U = Matrix2d::Zero();
+  if (dimension == 1) {
+    U(0, 0) = 1.0 / std::sqrt(covariance(0, 0));
+    return U;
+  }
   const double sigma = std::sqrt(covariance(1, 1)), area = std::sqrt(covariance.determinant());
-  Matrix2d U;
   U << covariance(1, 1), -covariance(0, 1), 0.0, area;
   return U / (sigma * area);
 }
@@ -96,14 +102,15 @@ void PoseProblem::reweight(const PoseState::Vector& x, double scale, bool bounde
     term.by_step = term.by_landmark * term.landmark_by_step;
     const double cauchy = 1.0 / (1.0 + normalised_square(o, term.covariance, term.residual) / scale);
     term.weight = bounded ? cauchy * cauchy : cauchy;
-    term.whitener = whitener(term.rest());
+    term.whitener = whitener(term.rest(), o.dimension());
   }
 }
 
 void PoseProblem::trust_all() {
-  for (ObservationTerm& term : terms_) {
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    ObservationTerm& term = terms_[k];
     term.weight = 1.0;
-    term.whitener = whitener(term.rest());
+    term.whitener = whitener(term.rest(), observations_[k].dimension());
   }
 }
 
