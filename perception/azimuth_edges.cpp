@@ -268,8 +268,9 @@ void AzimuthEdgeFilter::part(std::span<const int> pairs, double width, std::span
   }
   const HitLanes limit = 0.35 * apparent;
   HitLanes distance = apparent, shift_a, shift_b;
+  const double inverse_width = 1.0 / width;
   for (int round = 0; round < 3; ++round) {  // the true distance is what the shifts leave of the apparent one
-    const HitLanes overlap = (distance / width).unaryExpr([](double x) { return overlap_at(x); });
+    const HitLanes overlap = (distance * inverse_width).unaryExpr([](double x) { return overlap_at(x); });
     const HitLanes a_step = a_height - overlap * b_height;
     const HitLanes b_step = b_height - overlap * a_height;
     shift_a = (b_step / a_step * distance * overlap).max(-limit).min(limit);
@@ -332,17 +333,18 @@ void AzimuthEdgeFilter::add_hits(const AnnulusRow& circle, int row, std::span<co
   }
   const double column_rad = 2.0 * std::numbers::pi / circle.columns;
   const double sharp = params_.broad_from * width_columns_;
-  const HitLanes curvature = (2.0 * here - before - after).abs();  // > 0 at an extremum
-  const HitLanes between = here.sign() * (0.5 * (after - before) / curvature);
-  const HitLanes noise_px = extremum_gain_ * noise_ / curvature * column_rad * circle.radius_px;
-  const HitLanes excess_px = column_px_ * (here.abs() / curvature - sharp * sharp).max(0.0).sqrt();
+  const HitLanes inverse_curvature = 1.0 / (2.0 * here - before - after).abs();  // > 0 at an extremum
+  const HitLanes between = here.sign() * (0.5 * (after - before)) * inverse_curvature;
+  const HitLanes noise_px = extremum_gain_ * noise_ * inverse_curvature * column_rad * circle.radius_px;
+  const HitLanes excess_px = column_px_ * (here.abs() * inverse_curvature - sharp * sharp).max(0.0).sqrt();
   const HitLanes broad_px = params_.broad_share * excess_px;
   const HitLanes sigma_px = (noise_px * noise_px + model_px * model_px + broad_px * broad_px).sqrt();
+  const HitLanes sigma = sigma_px * (1.0 / circle.radius_px), step = here * (1.0 / gain_);
   const HitLanes azimuth = (column + between) * column_rad;
   for (int lane = 0; lane < static_cast<int>(columns.size()); ++lane)
     hits.push_back({.azimuth = static_cast<float>(azimuth[lane]),
-                    .sigma = static_cast<float>(sigma_px[lane] / circle.radius_px),
-                    .step = static_cast<float>(here[lane] / gain_),
+                    .sigma = static_cast<float>(sigma[lane]),
+                    .step = static_cast<float>(step[lane]),
                     .row = static_cast<std::int16_t>(row),
                     .saturated = saturated[lane]});
 }

@@ -104,10 +104,8 @@ void LineVotes::for_each_near(const LinePeak& peak, double window_rad, Visit&& v
   }
 }
 
-/// A counting sort, as rows are few; the hits of one row stay in order.
+/// A counting sort, as rows are few; the hits of one row stay in order. The rows are counted already.
 void LineVotes::sort_near_by_row() {
-  std::fill(begin_of_row_.begin(), begin_of_row_.end(), 0);
-  for (const std::int32_t i : near_) ++begin_of_row_[hits_[i].row + 1];
   for (std::size_t row = 1; row < begin_of_row_.size(); ++row) begin_of_row_[row] += begin_of_row_[row - 1];
   by_row_.resize(near_.size());
   for (const std::int32_t i : near_) by_row_[begin_of_row_[hits_[i].row]++] = i;
@@ -117,9 +115,11 @@ double LineVotes::gather(const LinePeak& peak, double window_rad, RadialPoints& 
   points.clear();
   near_.clear();
   middle_.clear();
+  std::fill(begin_of_row_.begin(), begin_of_row_.end(), 0);
   for_each_near(peak, window_rad, [&](int i, int bin) {
     if (used_[i] != 0) return;
     near_.push_back(i);
+    ++begin_of_row_[hits_[i].row + 1];
     if (std::abs(bin - peak.bin) <= 1) middle_.push_back(geometry::wrap_angle(hits_[i].azimuth - peak.azimuth));
   });
   if (middle_.empty()) return 0.0;
