@@ -72,6 +72,12 @@ void place(CalibratedPose& pose, const geometry::PoseEstimate& elsewhere) {
   pose.with_plan.transform(forget_pose);
 }
 
+void set_state(const CalibratedPose& from, CalibratedPose& pose) {
+  pose.pose = from.pose;
+  pose.common_errors = from.common_errors;
+  pose.joint = from.joint;
+}
+
 void widen(CalibratedPose& pose, const Eigen::Matrix3d& doubt) { pose.joint.topLeftCorner<3, 3>() += doubt; }
 
 }  // namespace credo::localization

@@ -49,6 +49,9 @@ void move(CalibratedPose& pose, const geometry::PoseEstimate& motion, const Cali
 /// Another pose, from elsewhere, in place of the one that was there; the calibration stays.
 void place(CalibratedPose& pose, const geometry::PoseEstimate& elsewhere);
 
+/// Copies all but the covariances with the plan's errors.
+void set_state(const CalibratedPose& from, CalibratedPose& pose);
+
 /// Adds to the covariance of the pose.
 void widen(CalibratedPose& pose, const Eigen::Matrix3d& doubt);
 

@@ -20,13 +20,19 @@ using Eigen::Vector3d;
 
 /// Squared residual per degree of freedom in standard deviations.
 double normalised_square(const Observation& o, const ResidualCovariance& covariance, const Vector2d& residual) {
-  return residual.dot(covariance.whole().inverse() * residual) / o.dimension();
+  const Matrix2d whole = covariance.whole();
+  if (o.dimension() == 1) return residual.x() * residual.x() / whole(0, 0);
+  return residual.dot(whole.inverse() * residual) / o.dimension();
 }
 
-/// U, upper triangular, with U^T U = covariance^-1.
-Matrix2d whitener(const Matrix2d& covariance) {
+/// U, upper triangular, with U^T U = covariance^-1; of one dimension, the first row alone.
+Matrix2d whitener(const Matrix2d& covariance, int dimension) {
+  Matrix2d U = Matrix2d::Zero();
+  if (dimension == 1) {
+    U(0, 0) = 1.0 / std::sqrt(covariance(0, 0));
+    return U;
+  }
   const double sigma = std::sqrt(covariance(1, 1)), area = std::sqrt(covariance.determinant());
-  Matrix2d U;
   U << covariance(1, 1), -covariance(0, 1), 0.0, area;
   return U / (sigma * area);
 }
@@ -96,14 +102,15 @@ void PoseProblem::reweight(const PoseState::Vector& x, double scale, bool bounde
     term.by_step = term.by_landmark * term.landmark_by_step;
     const double cauchy = 1.0 / (1.0 + normalised_square(o, term.covariance, term.residual) / scale);
     term.weight = bounded ? cauchy * cauchy : cauchy;
-    term.whitener = whitener(term.rest());
+    term.whitener = whitener(term.rest(), o.dimension());
   }
 }
 
 void PoseProblem::trust_all() {
-  for (ObservationTerm& term : terms_) {
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    ObservationTerm& term = terms_[k];
     term.weight = 1.0;
-    term.whitener = whitener(term.rest());
+    term.whitener = whitener(term.rest(), observations_[k].dimension());
   }
 }
 
@@ -122,13 +129,19 @@ PoseProblem::Moments PoseProblem::moments_root(const PoseState::Vector& x) {
   const PoseState::Vector gradient = prior_.information * step;
   Moments moments;
   moments << prior_.information, gradient, gradient.transpose(), step.dot(gradient);
-  const auto count = static_cast<Eigen::Index>(2 * terms_.size());
-  if (rows_.rows() < count) rows_.resize(count, Eigen::NoChange);
+  const auto most = static_cast<Eigen::Index>(2 * terms_.size());
+  if (rows_.rows() < most) rows_.resize(most, Eigen::NoChange);
+  Eigen::Index count = 0;
   for (std::size_t k = 0; k < terms_.size(); ++k) {
     const ObservationTerm& term = terms_[k];
     Eigen::Matrix<double, 2, PoseState::kSize + 1> raw;
     raw << term.by_state + term.by_step, term.residual + term.by_step * step;
-    rows_.middleRows<2>(static_cast<Eigen::Index>(2 * k)) = term.whitener * raw;
+    if (observations_[k].dimension() == 1) {  // the second row is idle
+      rows_.row(count++) = term.whitener(0, 0) * raw.row(0);
+      continue;
+    }
+    rows_.middleRows<2>(count) = term.whitener * raw;
+    count += 2;
   }
   const auto rows = rows_.topRows(count);
   moments.triangularView<Eigen::Upper>() += rows.transpose().lazyProduct(rows);

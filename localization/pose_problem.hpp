@@ -44,7 +44,7 @@ struct ObservationTerm {
   PoseState::Jacobian by_step = PoseState::Jacobian::Zero();  ///< of the residual, through what the step tells
   ResidualCovariance covariance;
   double weight = 1.0;                                 ///< of the robust loss
-  Eigen::Matrix2d whitener = Eigen::Matrix2d::Zero();  ///< U^T U = rest()^-1
+  Eigen::Matrix2d whitener = Eigen::Matrix2d::Zero();  ///< U^T U = rest()^-1; of a bearing, the first row
 
   /// Covariance of the residual beside by_step * step.
   [[nodiscard]] Eigen::Matrix2d rest() const {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -21,6 +22,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
+constexpr double kSettled = 1e-6;  ///< change of the cost, half a sum of squared standard deviations
 using ScanColumns = Eigen::Matrix<double, PoseState::kSize, 3>;
 
 geometry::Pose2 pose_of(const PoseState::Vector& x) {
@@ -67,8 +69,11 @@ struct PoseSolver::State {
   ceres::TinySolver<TenRows> solver;
   PoseProblem problem;
 
-  PlanPart plan_part;  ///< of the error of the latest solution
-  PoseSolution solution;
+  // Of the latest solution's error, for solve_plan():
+  const CalibratedPose* from = nullptr;  ///< its prior
+  PlanPart plan_part;
+  PoseState::Matrix by_prior = PoseState::Matrix::Identity();  ///< its derivative by the prior's error
+  PoseSolution solution;                                       ///< of solve()
 
   /// Where the iterations start from.
   enum class Start {
@@ -81,10 +86,10 @@ struct PoseSolver::State {
   [[nodiscard]] bool doubtful(const PoseState::Vector& x) const;
   [[nodiscard]] PoseState::Vector best_state();
   void minimise(PoseState::Vector& x);
-  void judge(const PoseState::Vector& x);
+  void judge(const PoseState::Vector& x, PoseSolution& of) const;
   struct Gains;
-  [[nodiscard]] Gains sum_gains(const PoseState::Matrix& by_gradient);
-  void carry_over(const PoseState::Vector& x);
+  [[nodiscard]] Gains sum_gains(const PoseState::Matrix& by_gradient, const PoseSolution& of);
+  void carry_over(const PoseState::Vector& x, PoseSolution& of);
 };
 
 void PoseSolver::State::minimise(PoseState::Vector& x) {
@@ -98,6 +103,8 @@ PoseState::Vector PoseSolver::State::settle(Start start) {
   problem.reweight(x, scale(), bounded);
   if (start == Start::kAll) problem.trust_all();  // far from the solution, residuals say nothing of outliers
   for (int i = 0; i < params.reweightings; ++i) {
+    // Near the solution a step is enough, as the weights change after it.
+    solver.options.function_tolerance = i == 0 ? kSettled : std::numeric_limits<double>::infinity();
     minimise(x);
     problem.reweight(x, scale(), bounded);
   }
@@ -124,24 +131,23 @@ PoseState::Vector PoseSolver::State::best_state() {
 }
 
 /// What came of each observation, and the information of the state.
-void PoseSolver::State::judge(const PoseState::Vector& x) {
+void PoseSolver::State::judge(const PoseState::Vector& x, PoseSolution& of) const {
   const std::span<const Observation> observations = problem.observations();
   const PoseState::Vector step = difference(x, problem.prior().state);
-  solution.step = step;
-  solution.prior_with_plan = problem.prior().pose->with_plan;
-  solution.information = solution.prior_information = problem.prior().information;
+  of.step = step;
+  of.information = of.prior_information = problem.prior().information;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     const Observation& o = observations[k];
     const ObservationTerm& term = problem.terms()[k];
     const PoseState::Jacobian by_state = term.by_state + term.by_step;
     const Matrix2d weight = term.rest().inverse();
-    solution.information.noalias() += by_state.transpose() * (weight * by_state);
-    solution.linearised.push_back({o.landmark, o.kind, term.residual + term.by_step * step, by_state, weight});
+    of.information.noalias() += by_state.transpose() * (weight * by_state);
+    of.linearised.push_back({o.landmark, o.kind, term.residual + term.by_step * step, by_state, weight});
     const double squared = term.residual.dot(term.covariance.whole().inverse() * term.residual);
-    solution.mahalanobis_squared.push_back(squared);
-    solution.outlier.push_back(squared > gates[static_cast<std::size_t>(o.dimension() - 1)]);
+    of.mahalanobis_squared.push_back(squared);
+    of.outlier.push_back(squared > gates[static_cast<std::size_t>(o.dimension() - 1)]);
   }
-  solution.common_errors = x.tail<6>();
+  of.common_errors = x.tail<6>();
 }
 
 /// The sums over all observations that the error of a solution is made of, with the gains K_k of the residuals and
@@ -153,13 +159,13 @@ struct PoseSolver::State::Gains {
 };
 
 /// \param by_gradient  the gains are this times J_k^T W_k
-PoseSolver::State::Gains PoseSolver::State::sum_gains(const PoseState::Matrix& by_gradient) {
+PoseSolver::State::Gains PoseSolver::State::sum_gains(const PoseState::Matrix& by_gradient, const PoseSolution& of) {
   Gains sum;
   plan_part.clear(problem.prior().pose->with_plan.errors());
   for (std::size_t k = 0; k < problem.terms().size(); ++k) {
     const Observation& o = problem.observations()[k];
     const ObservationTerm& term = problem.terms()[k];
-    const LinearisedObservation& at = solution.linearised[k];
+    const LinearisedObservation& at = of.linearised[k];
     const PoseState::Pair K = by_gradient * (at.by_state.transpose() * at.information);
     const PoseState::Pair by_landmark = K * term.by_landmark;
     const Matrix2d fresh = o.plan_terms.empty() ? term.covariance.whole() : term.covariance.noise;
@@ -179,24 +185,22 @@ PoseSolver::State::Gains PoseSolver::State::sum_gains(const PoseState::Matrix& b
 /// linear in the prior's error, the carry's, the noise and the plan's: with the gains K_k of the residuals,
 /// their derivatives J_k by the state and G_k by the plan, and A = 1 - L sum K_k J_k,
 ///   e' = A e - L sum(K_k J_k) carry - L sum K_k (noise_k + G_k plan).
-void PoseSolver::State::carry_over(const PoseState::Vector& x) {
+void PoseSolver::State::carry_over(const PoseState::Vector& x, PoseSolution& of) {
   const PosePrior& prior = problem.prior();
   ScanColumns carried = ScanColumns::Zero();
   carried.middleRows<3>(PoseState::kRangeX) = prior.carry;
   const PoseState::Matrix L =
       PoseState::Matrix::Identity() - carried * prior.information.middleRows<3>(PoseState::kRangeX);
-  const Gains gains = sum_gains(L * inverse(solution.information));
+  const Gains gains = sum_gains(L * inverse(of.information), of);
   const PoseState::Matrix A = PoseState::Matrix::Identity() - gains.by_state;
   const ScanColumns by_carry = gains.by_state.middleCols<3>(PoseState::kRangeX);
   const PoseState::Matrix cross = A * gains.with_plan;
   const PoseState::Matrix joint = A * prior.pose->joint * A.transpose() +
                                   by_carry * prior.carry * by_carry.transpose() + gains.noise + plan_part.covariance() -
                                   cross - cross.transpose();
-  CalibratedPose& after = solution.pose;
+  by_prior = A;
+  CalibratedPose& after = of.pose;
   after.joint = 0.5 * (joint + joint.transpose());
-  after.with_plan = prior.pose->with_plan;
-  after.with_plan.transform(A);
-  after.with_plan -= plan_part;
   const PoseState::Vector smoothed = prior.state + L * difference(x, prior.state);
   after.pose = pose_of(x);
   after.common_errors = smoothed.tail<6>();
@@ -215,24 +219,38 @@ PoseSolver::~PoseSolver() = default;
 PoseSolver::PoseSolver(PoseSolver&&) noexcept = default;
 PoseSolver& PoseSolver::operator=(PoseSolver&&) noexcept = default;
 
-const PoseSolution& PoseSolver::solution() const { return state_->solution; }
-
-const PoseSolution& PoseSolver::solve(const CalibratedPose& prior, const std::vector<Observation>& observations,
-                                      const Matrix3d& carry_covariance) {
+void PoseSolver::solve_state(const CalibratedPose& prior, const std::vector<Observation>& observations,
+                             const Matrix3d& carry_covariance, PoseSolution& solution) {
   State& s = *state_;
-  s.solution.mahalanobis_squared.clear();
-  s.solution.outlier.clear();
-  s.solution.linearised.clear();
+  s.from = &prior;
+  solution.mahalanobis_squared.clear();
+  solution.outlier.clear();
+  solution.linearised.clear();
   if (observations.empty()) {
-    s.solution.pose = prior;
-    s.solution.common_errors = prior.common_errors;
-    return s.solution;
+    s.by_prior.setIdentity();
+    s.plan_part.clear(prior.with_plan.errors());
+    set_state(prior, solution.pose);
+    solution.common_errors = prior.common_errors;
+    return;
   }
   s.problem.take(prior, carry_covariance, observations);
   const PoseState::Vector x = s.best_state();
-  s.judge(x);
-  s.carry_over(x);
-  return s.solution;
+  s.judge(x, solution);
+  s.carry_over(x, solution);
+}
+
+void PoseSolver::solve_plan(PoseSolution& solution) const {
+  const State& s = *state_;
+  solution.pose.with_plan = solution.prior_with_plan = s.from->with_plan;
+  solution.pose.with_plan.transform(s.by_prior);
+  solution.pose.with_plan -= s.plan_part;
+}
+
+const PoseSolution& PoseSolver::solve(const CalibratedPose& prior, const std::vector<Observation>& observations,
+                                      const Matrix3d& carry_covariance) {
+  solve_state(prior, observations, carry_covariance, state_->solution);
+  solve_plan(state_->solution);
+  return state_->solution;
 }
 
 }  // namespace credo::localization

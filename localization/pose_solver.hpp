@@ -65,8 +65,14 @@ class PoseSolver {
   /// \returns a reference that stays valid until the next call; the prior itself where there is no observation.
   const PoseSolution& solve(const CalibratedPose& prior, const std::vector<Observation>& observations,
                             const Eigen::Matrix3d& carry_covariance = Eigen::Matrix3d::Zero());
-  /// The latest one.
-  [[nodiscard]] const PoseSolution& solution() const;
+
+  /// The same in two steps, for where a pose is soon replaced by a better one. First all but the covariances with the
+  /// plan's errors, of which `solution` keeps those that it has.
+  /// \param prior  has to live until the second step
+  void solve_state(const CalibratedPose& prior, const std::vector<Observation>& observations,
+                   const Eigen::Matrix3d& carry_covariance, PoseSolution& solution);
+  /// The covariances with the plan's errors of the latest solution: `pose.with_plan` and `prior_with_plan`.
+  void solve_plan(PoseSolution& solution) const;
 
  private:
   struct State;

@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -40,15 +43,18 @@ class ProtectionLevel {
                                   double most);
 
  private:
-  /// One component of a hypothesis; all of them lie close together, for they are summed up again and again.
-  struct Term {
-    double probability = 0.0;
-    double separation = 0.0;
-    double inverse_sigma = 0.0;
+  static constexpr std::size_t kLanes = 8;
+  using Lanes = Eigen::Array<double, kLanes, 1>;
+  /// One component of a few hypotheses, side by side. The last one is filled up with what has no probability.
+  struct Block {
+    Lanes probability = Lanes::Zero();
+    Lanes separation = Lanes::Zero();
+    Lanes inverse_sigma = Lanes::Zero();
   };
-  [[nodiscard]] double excess(double level) const;
+  void take(std::span<const FaultHypothesis> hypotheses, const FaultComponent& of);
+  [[nodiscard]] double excess(double level, double enough = std::numeric_limits<double>::infinity()) const;
 
-  std::vector<Term> terms_;
+  std::vector<Block> blocks_;
 };
 
 }  // namespace credo::localization

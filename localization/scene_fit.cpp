@@ -40,8 +40,7 @@ SceneFitter::SceneFitter(const LandmarkMap& map, const sensors::Rig& rig, const 
       solver_(params.solver),
       uncalibrated_(calibrated_pose(rig, {}, 2 * (map.junction_count() + map.landmark_count()))),
       scan_matcher_(map, params.scan) {
-  by_walls_.solution.pose = by_walls_.pose = start_ = uncalibrated_;  // memory for the plan's errors
-  by_walls_.solution.prior_with_plan = uncalibrated_.with_plan;
+  start_ = uncalibrated_;  // memory for the plan's errors
   wall_in_use_.reserve(kUsual);
   unmatched_.reserve(kUsual);
   used_.reserve(kUsual);
@@ -50,13 +49,14 @@ SceneFitter::SceneFitter(const LandmarkMap& map, const sensors::Rig& rig, const 
 
 void SceneFitter::fit(const Scene& scene, std::span<const tracking::Track> tracks, std::span<const Match> matches,
                       const CalibratedPose& expected, bool given, SceneFit& fit) {
-  fit.pose = expected;
+  set_state(expected, fit.pose);
   fit.new_matches.clear();
   observe_tracks(scene, tracks, matches, fit);
   solve(scene, expected, fit);
   // The paper's method looks at the map once, from the pose that the tracks gave (Clerentin et al., sec. 4.2).
   const bool once = params_.method == perception::Method::kPaper && !given;
   match_map(scene, expected, given ? first_matcher_ : matcher_, once ? 1 : params_.matching_rounds, fit);
+  conclude(fit);
 }
 
 void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& from, const CalibratedPose& expected,
@@ -69,6 +69,7 @@ void SceneFitter::fit_anew(const Scene& scene, const geometry::PoseEstimate& fro
   solve(scene, start_, fit);
   match_map(scene, expected, matcher_, params_.matching_rounds, fit);
   match_map(scene, expected, matcher_, params_.matching_rounds, fit);
+  conclude(fit);
 }
 
 void SceneFitter::gather(const Scene& scene, SceneFit& fit) const {
@@ -85,7 +86,7 @@ const CalibratedPose& SceneFitter::uncalibrated(const geometry::PoseEstimate& at
 }
 
 const CalibratedPose& SceneFitter::sharpen(const Scene& scene, const CalibratedPose& expected) {
-  by_walls_.pose = expected;
+  set_state(expected, by_walls_.pose);
   by_walls_.observations.clear();
   wall_in_use_.assign(scene.segments.size(), false);
   list_unmatched(scene, by_walls_);
@@ -97,7 +98,7 @@ const CalibratedPose& SceneFitter::sharpen(const Scene& scene, const CalibratedP
 
 geometry::PoseEstimate SceneFitter::solve_motion(const Scene& scene, const geometry::PoseEstimate& motion,
                                                  SceneFit& fit) {
-  fit.solution = solver_.solve(uncalibrated(motion), fit.observations, scene.carry_covariance);
+  solver_.solve_state(uncalibrated(motion), fit.observations, scene.carry_covariance, fit.solution);
   return fit.solution.estimate();
 }
 
@@ -145,8 +146,15 @@ void SceneFitter::list_unmatched(const Scene& scene, const SceneFit& fit) {
     if (!used_[p]) unmatched_.push_back(static_cast<int>(p));
 }
 
+/// All but what conclude() adds, as it is not asked for between the rounds.
 void SceneFitter::solve(const Scene& scene, const CalibratedPose& expected, SceneFit& fit) {
-  fit.solution = solver_.solve(expected, fit.observations, scene.carry_covariance);
+  solver_.solve_state(expected, fit.observations, scene.carry_covariance, fit.solution);
+  set_state(fit.solution.pose, fit.pose);
+}
+
+/// What the latest solution says of the plan's errors.
+void SceneFitter::conclude(SceneFit& fit) {
+  solver_.solve_plan(fit.solution);
   fit.pose = fit.solution.pose;
 }
 

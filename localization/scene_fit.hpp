@@ -68,7 +68,8 @@ class SceneFitter {
   void gather(const perception::Scene& scene, SceneFit& fit) const;
 
   /// The expected pose as the walls alone correct it: they are few, long and far apart, so that even from a poor
-  /// prediction none is taken for another. For looking for the rest; `expected` itself where no wall is matched.
+  /// prediction none is taken for another. For looking for the rest, without covariances with the plan's errors;
+  /// `expected` where no wall is matched.
   [[nodiscard]] const CalibratedPose& sharpen(const perception::Scene& scene, const CalibratedPose& expected);
 
   /// The motion between two scenes, from observe_again() of what was seen in both; with odometry as the prior.
@@ -88,6 +89,7 @@ class SceneFitter {
   void match_map(const perception::Scene& scene, const CalibratedPose& expected, MapMatcher& matcher, int rounds,
                  SceneFit& fit);
   void solve(const perception::Scene& scene, const CalibratedPose& expected, SceneFit& fit);
+  void conclude(SceneFit& fit);
 
   const LandmarkMap* map_;
   SceneFitParams params_;

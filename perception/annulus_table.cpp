@@ -18,21 +18,29 @@ constexpr int kWeightSum = 128;
 constexpr int kWeightShift = 5;  // kWeightSum / AnnulusTable::kScale = 1 << kWeightShift
 static_assert(kWeightSum >> kWeightShift == AnnulusTable::kScale);
 
-constexpr std::size_t kGathered = 256;                   // samples whose pixels are gathered before they are mixed
-using PairBlock = std::array<std::uint16_t, kGathered>;  // two neighbouring pixels each, as they lie in memory
+// Eight pairs of neighbouring pixels as they lie in memory, or numbers of 16 bits for each.
+using Pairs [[gnu::vector_size(16)]] = std::uint16_t;
 
 constexpr int kLeftShift = std::endian::native == std::endian::little ? 0 : 8;
 constexpr int kRightShift = 8 - kLeftShift;
 
-/// Nothing but arithmetic on 16 bits, side by side: 255 * kWeightSum fits.
-void mix(const PairBlock& upper, const PairBlock& lower, const std::array<const std::uint8_t*, 4>& weights,
-         std::size_t count, std::int16_t* out) {
-  const auto [w0, w1, w2, w3] = weights;
-  for (std::size_t i = 0; i < count; ++i) {
-    const int sum = w0[i] * (upper[i] >> kLeftShift & 255) + w1[i] * (upper[i] >> kRightShift & 255) +
-                    w2[i] * (lower[i] >> kLeftShift & 255) + w3[i] * (lower[i] >> kRightShift & 255);
-    out[i] = static_cast<std::int16_t>(sum >> kWeightShift);
-  }
+std::uint16_t pair_at(const std::uint8_t* pixel) {
+  std::uint16_t pair;
+  std::memcpy(&pair, pixel, sizeof pair);
+  return pair;
+}
+
+/// Straight into a register: through memory, the pairs would have to arrive there before they are read as one.
+Pairs gather(const std::uint8_t* pixels, const std::array<std::int32_t, 8>& offsets) {
+  const auto [a, b, c, d, e, f, g, h] = offsets;
+  return Pairs{pair_at(pixels + a), pair_at(pixels + b), pair_at(pixels + c), pair_at(pixels + d),
+               pair_at(pixels + e), pair_at(pixels + f), pair_at(pixels + g), pair_at(pixels + h)};
+}
+
+Pairs widen(const std::array<std::uint8_t, 8>& bytes) {
+  Pairs wide;
+  for (std::size_t i = 0; i < bytes.size(); ++i) wide[i] = bytes[i];
+  return wide;
 }
 
 int columns_of(double radius_px, double column_px) {
@@ -57,8 +65,7 @@ AnnulusTable::AnnulusTable(const sensors::OmniCamera& camera, const Eigen::Vecto
     total += static_cast<std::size_t>(row.columns);
     max_columns_ = std::max(max_columns_, row.columns);
   }
-  offsets_.resize(total);
-  for (std::vector<std::uint8_t>& weights : weights_) weights.resize(total);
+  blocks_.resize(total / kLanes);
   usable_.resize(total);
   recenter(camera, center_px);
 }
@@ -92,29 +99,29 @@ void AnnulusTable::place_sample(const sensors::OmniCamera& camera, const Eigen::
   const int lower = static_cast<int>(kWeightSum * fv + 0.5);
   const int both = std::max(static_cast<int>(kWeightSum * fu * fv + 0.5), right + lower - kWeightSum);
   const std::array<int, 4> weights{kWeightSum - right - lower + both, right - both, lower - both, both};
+  Block& block = blocks_[sample / kLanes];
+  const std::size_t lane = sample % kLanes;
   bool usable = u == pixel.x() && v == pixel.y();
   for (int corner = 0; corner < 4; ++corner) {
-    weights_[corner][sample] = static_cast<std::uint8_t>(weights[corner]);
+    block.weights[corner][lane] = static_cast<std::uint8_t>(weights[corner]);
     if (camera.mask.empty() || weights[corner] == 0) continue;
     usable = usable && camera.mask.at<std::uint8_t>(v0 + corner / 2, u0 + corner % 2) != 0;
   }
-  offsets_[sample] = v0 * camera.width_px + u0;
+  block.offsets[lane] = v0 * camera.width_px + u0;
   usable_[sample] = usable ? 1 : 0;
 }
 
+/// Arithmetic on 16 bits, where 255 * kWeightSum fits.
 void AnnulusTable::sample(const std::uint8_t* pixels, int row, std::int16_t* out) const {
-  const auto columns = static_cast<std::size_t>(rows_[row].columns);
-  PairBlock upper, lower;
-  for (std::size_t begin = 0; begin < columns; begin += kGathered) {
-    const std::size_t first = rows_[row].first + begin;
-    const std::size_t count = std::min(kGathered, columns - begin);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint8_t* const corner = pixels + offsets_[first + i];
-      std::memcpy(&upper[i], corner, 2);
-      std::memcpy(&lower[i], corner + width_px_, 2);
-    }
-    mix(upper, lower, {&weights_[0][first], &weights_[1][first], &weights_[2][first], &weights_[3][first]}, count,
-        out + begin);
+  const auto first = blocks_.begin() + static_cast<std::ptrdiff_t>(rows_[row].first / kLanes);
+  const auto last = first + rows_[row].columns / kLanes;
+  for (auto block = first; block != last; ++block, out += kLanes) {
+    const auto& [w0, w1, w2, w3] = block->weights;
+    const Pairs upper = gather(pixels, block->offsets), lower = gather(pixels + width_px_, block->offsets);
+    const Pairs sum = widen(w0) * (upper >> kLeftShift & 255) + widen(w1) * (upper >> kRightShift & 255) +
+                      widen(w2) * (lower >> kLeftShift & 255) + widen(w3) * (lower >> kRightShift & 255);
+    const Pairs scaled = sum >> kWeightShift;
+    std::memcpy(out, &scaled, sizeof scaled);
   }
 }
 

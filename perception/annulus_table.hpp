@@ -23,7 +23,6 @@ struct AnnulusRow {
 
 /// Where in the image the circles of an annulus lie: for every sample the offset of a pixel and the weights of the 2 x
 /// 2 pixels from there. Made once for a camera and a centre; reading a circle is a gather, no angle is computed.
-/// Offsets and weights lie by corner, not by sample: the gather of pixels is scalar, their mixing is not.
 class AnnulusTable {
  public:
   static constexpr int kScale = 4;  ///< samples are grey levels times this
@@ -41,7 +40,7 @@ class AnnulusTable {
   [[nodiscard]] const std::vector<AnnulusRow>& rows() const { return rows_; }
   [[nodiscard]] const Eigen::Vector2d& center_px() const { return center_px_; }
   [[nodiscard]] int max_columns() const { return max_columns_; }
-  [[nodiscard]] std::size_t samples() const { return offsets_.size(); }
+  [[nodiscard]] std::size_t samples() const { return usable_.size(); }
 
   /// Grey levels times kScale of a row's samples; samples outside the image repeat its border.
   /// \param pixels  first of the image's pixels, rows of width_px bytes without gaps
@@ -58,10 +57,16 @@ class AnnulusTable {
   void place_row(const sensors::OmniCamera& camera, const AnnulusRow& row);
   void place_sample(const sensors::OmniCamera& camera, const Eigen::Vector2d& pixel, std::size_t sample);
 
+  static constexpr int kLanes = 8;
+  /// Samples that are read side by side, one cache line of the table.
+  struct alignas(64) Block {
+    std::array<std::int32_t, kLanes> offsets;
+    /// Of the pixels at the offset, +1, +width, +width+1; each sample's sum to 128.
+    std::array<std::array<std::uint8_t, kLanes>, 4> weights;
+  };
+
   std::vector<AnnulusRow> rows_;
-  std::vector<std::int32_t> offsets_;
-  /// Of the pixels at the offset, +1, +width, +width+1; each sample's sum to 128.
-  std::array<std::vector<std::uint8_t>, 4> weights_;
+  std::vector<Block> blocks_;
   std::vector<std::uint8_t> usable_;
   bool all_usable_ = true;
   Eigen::Vector2d center_px_;

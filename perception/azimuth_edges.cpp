@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <numbers>
 
 #include "geometry/angles.hpp"
@@ -24,6 +26,9 @@ constexpr double kMedianToSigma = 1.4826;
 // every value alike: sqrt(mean of (1-a)^2 + a^2) = sqrt(2/3) per axis, of which only the radial one is free of the
 // filter's own averaging.
 constexpr double kInterpolationNoise = 0.816;
+
+/// A threshold of the filter's answers, as they are.
+std::int16_t as_answer(double threshold) { return static_cast<std::int16_t>(std::min(threshold, 32767.0)); }
 
 /// Marks the columns where the answer has a local extremum of at least `least`. Side by side, without branches.
 /// \param response  can be read one column before and one behind
@@ -43,17 +48,46 @@ std::int16_t largest(const std::int16_t* samples, int columns) {
   return found;
 }
 
-/// The columns that are marked, growing. Most are not: eight are looked at together, the first in the lowest byte.
+/// How often values were met. Neighbours are alike: counted in one place, each would wait for the one before it.
+template <int kBins>
+class Histogram {
+ public:
+  void add(int column, int bin) { ++places_[column % kPlaces][bin]; }
+  [[nodiscard]] std::array<int, kBins> counts() const {
+    std::array<int, kBins> sum{};
+    for (const auto& place : places_) std::ranges::transform(sum, place, sum.begin(), std::plus());
+    return sum;
+  }
+
+ private:
+  static constexpr int kPlaces = 4;
+  std::array<std::array<int, kBins>, kPlaces> places_{};
+};
+
+/// The columns that are marked, growing. Eight are looked at together, the first in the lowest byte. Most often two of
+/// them are marked, or one, or none: two are listed whatever there is, as a branch that goes either way costs more.
 /// \param columns  a multiple of 8
 /// \param marks    0 or 1
-template <class Visit>
-void for_each_mark(const std::uint8_t* marks, int columns, Visit&& visit) {
+/// \param listed   memory for as many columns, and two
+std::span<int> list_marks(const std::uint8_t* marks, int columns, std::vector<int>& listed) {
   static_assert(std::endian::native == std::endian::little);
-  std::uint64_t word = 0;
-  for (int first = 0; first < columns; first += static_cast<int>(sizeof word)) {
+  constexpr std::uint64_t kOnes = 0x0101010101010101;
+  assert(listed.size() >= static_cast<std::size_t>(columns) + 2);
+  int* end = listed.data();
+  for (int first = 0; first < columns; first += 8) {
+    std::uint64_t word = 0;
     std::memcpy(&word, marks + first, sizeof word);
-    for (; word != 0; word &= word - 1) visit(first + std::countr_zero(word) / 8);
+    int* next = end;
+    end += word * kOnes >> 56;  // the sum of the bytes
+    const auto list_lowest = [&] {
+      *next++ = first + std::countr_zero(word) / 8;
+      word &= word - 1;
+    };
+    list_lowest();
+    list_lowest();
+    while (word != 0) list_lowest();
   }
+  return {listed.data(), end};
 }
 
 /// exp(-x^2 / 2), looked up to 1e-4: how far the answers to two steps at a distance of x widths overlap.
@@ -97,7 +131,7 @@ AzimuthEdgeFilter::AzimuthEdgeFilter(const EdgeFilterParams& params, double colu
       marks_(max_columns),
       response_(max_columns + 2 * kMargin) {
   widths_.reserve(samples_.size());
-  columns_.reserve(marks_.size());
+  columns_.resize(marks_.size() + 2);
   pairs_.reserve(marks_.size());
   shifts_.reserve(marks_.size());
   const double sigma = std::max(1.0, params.sigma_px / column_px);  // in columns, at least one
@@ -147,16 +181,14 @@ void AzimuthEdgeFilter::filter_row(const AnnulusTable& table, const std::uint8_t
   response[columns] = response[0];
 }
 
-void AzimuthEdgeFilter::measure_widths(int columns, int least) {
+void AzimuthEdgeFilter::measure_widths(int columns, std::int16_t least) {
   constexpr int kAlone = 6;  // columns on both sides without another step
   const std::int16_t* response = response_.data() + kMargin;
-  for (int i = kAlone; i < columns - kAlone; ++i) {
-    const int here = std::abs(response[i]);
-    if (here < least) continue;
+  mark_extrema(response, columns, least, marks_.data());
+  for (const int i : list_marks(marks_.data(), columns, columns_)) {
+    if (i < kAlone || i >= columns - kAlone) continue;
     const int sign = response[i] > 0 ? 1 : -1;
-    const int before = sign * response[i - 1];
-    const int after = sign * response[i + 1];
-    if (here < before || here <= after) continue;
+    const int here = sign * response[i], before = sign * response[i - 1], after = sign * response[i + 1];
     int lowest = 0;
     for (int j = i - kAlone; j <= i + kAlone; ++j) lowest = std::min(lowest, sign * response[j]);
     const int aside = std::max(sign * response[i - kAlone], sign * response[i + kAlone]);
@@ -170,21 +202,23 @@ void AzimuthEdgeFilter::measure(const AnnulusTable& table, const std::uint8_t* p
   constexpr int kBins = 512;
   constexpr int kBinWidth = 4;
   constexpr std::size_t kLeastWidths = 20;
-  std::array<int, kBins> counts{};
+  Histogram<kBins> answers;
+  Histogram<256> levels;
   int total = 0;
-  levels_ = {};
   widths_.clear();
-  const int clear_step = static_cast<int>(4.0 * params_.least_step * gain_);
+  const std::int16_t clear_step = as_answer(4.0 * params_.least_step * gain_);
   for (int row = 0; row < static_cast<int>(table.rows().size()); row += params_.noise_row_step) {
     filter_row(table, pixels, row);
     const int columns = table.rows()[row].columns;
     for (int i = 0; i < columns; ++i) {
-      ++counts[std::min(kBins - 1, std::abs(response_[kMargin + i]) / kBinWidth)];
-      if (table.usable(row, i)) ++levels_[samples_[kMargin + i] / AnnulusTable::kScale];
+      answers.add(i, std::min(kBins - 1, std::abs(response_[kMargin + i]) / kBinWidth));
+      if (table.usable(row, i)) levels.add(i, samples_[kMargin + i] / AnnulusTable::kScale);
     }
     total += columns;
     measure_widths(columns, clear_step);
   }
+  levels_ = levels.counts();
+  const std::array<int, kBins> counts = answers.counts();
   int below = 0;
   int bin = 0;
   while (bin < kBins - 1 && 2 * (below + counts[bin]) < total) below += counts[bin++];
@@ -199,7 +233,7 @@ void AzimuthEdgeFilter::measure(const AnnulusTable& table, const std::uint8_t* p
 
 void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixels, std::vector<EdgeHit>& hits) {
   const double threshold = std::max(params_.least_step * gain_, params_.least_step_sigmas * noise_ * noise_gain_);
-  const auto least = static_cast<std::int16_t>(std::min(threshold, 32767.0));
+  const std::int16_t least = as_answer(threshold);
   const double saturated_sample = params_.saturated_level * AnnulusTable::kScale;
   for (int row = 0; row < static_cast<int>(table.rows().size()); ++row) {
     filter_row(table, pixels, row);
@@ -207,14 +241,14 @@ void AzimuthEdgeFilter::find(const AnnulusTable& table, const std::uint8_t* pixe
     const int columns = circle.columns;
     mark_extrema(response_.data() + kMargin, columns, least, marks_.data());
     row_saturates_ = largest(samples_.data() + kMargin, columns) > saturated_sample;
-    columns_.clear();
-    for_each_mark(marks_.data(), columns, [&](int column) {
-      if (usable(table, row, column)) columns_.push_back(column);
-    });
+    std::span<int> found = list_marks(marks_.data(), columns, columns_);
+    if (!table.all_usable()) {
+      const auto hidden = std::ranges::remove_if(found, [&](int column) { return !usable(table, row, column); });
+      found = found.first(found.size() - hidden.size());
+    }
     const std::size_t before = hits.size();
-    for (std::size_t first = 0; first < columns_.size(); first += kHitLanes)
-      add_hits(circle, row,
-               std::span(columns_).subspan(first, std::min<std::size_t>(kHitLanes, columns_.size() - first)), hits);
+    for (std::size_t first = 0; first < found.size(); first += kHitLanes)
+      add_hits(circle, row, found.subspan(first, std::min<std::size_t>(kHitLanes, found.size() - first)), hits);
     separate(circle, std::span(hits).subspan(before));
   }
 }
@@ -234,8 +268,9 @@ void AzimuthEdgeFilter::part(std::span<const int> pairs, double width, std::span
   }
   const HitLanes limit = 0.35 * apparent;
   HitLanes distance = apparent, shift_a, shift_b;
+  const double inverse_width = 1.0 / width;
   for (int round = 0; round < 3; ++round) {  // the true distance is what the shifts leave of the apparent one
-    const HitLanes overlap = (distance / width).unaryExpr([](double x) { return overlap_at(x); });
+    const HitLanes overlap = (distance * inverse_width).unaryExpr([](double x) { return overlap_at(x); });
     const HitLanes a_step = a_height - overlap * b_height;
     const HitLanes b_step = b_height - overlap * a_height;
     shift_a = (b_step / a_step * distance * overlap).max(-limit).min(limit);
@@ -270,7 +305,6 @@ void AzimuthEdgeFilter::separate(const AnnulusRow& circle, std::span<EdgeHit> hi
 
 /// Whether the filter at a column takes in usable samples only.
 bool AzimuthEdgeFilter::usable(const AnnulusTable& table, int row, int column) const {
-  if (table.all_usable()) return true;
   const int columns = table.rows()[row].columns;
   for (int i = -kReach; i <= kReach; ++i)
     if (!table.usable(row, (column + i + columns) % columns)) return false;
@@ -299,17 +333,18 @@ void AzimuthEdgeFilter::add_hits(const AnnulusRow& circle, int row, std::span<co
   }
   const double column_rad = 2.0 * std::numbers::pi / circle.columns;
   const double sharp = params_.broad_from * width_columns_;
-  const HitLanes curvature = (2.0 * here - before - after).abs();  // > 0 at an extremum
-  const HitLanes between = here.sign() * (0.5 * (after - before) / curvature);
-  const HitLanes noise_px = extremum_gain_ * noise_ / curvature * column_rad * circle.radius_px;
-  const HitLanes excess_px = column_px_ * (here.abs() / curvature - sharp * sharp).max(0.0).sqrt();
+  const HitLanes inverse_curvature = 1.0 / (2.0 * here - before - after).abs();  // > 0 at an extremum
+  const HitLanes between = here.sign() * (0.5 * (after - before)) * inverse_curvature;
+  const HitLanes noise_px = extremum_gain_ * noise_ * inverse_curvature * column_rad * circle.radius_px;
+  const HitLanes excess_px = column_px_ * (here.abs() * inverse_curvature - sharp * sharp).max(0.0).sqrt();
   const HitLanes broad_px = params_.broad_share * excess_px;
   const HitLanes sigma_px = (noise_px * noise_px + model_px * model_px + broad_px * broad_px).sqrt();
+  const HitLanes sigma = sigma_px * (1.0 / circle.radius_px), step = here * (1.0 / gain_);
   const HitLanes azimuth = (column + between) * column_rad;
   for (int lane = 0; lane < static_cast<int>(columns.size()); ++lane)
     hits.push_back({.azimuth = static_cast<float>(azimuth[lane]),
-                    .sigma = static_cast<float>(sigma_px[lane] / circle.radius_px),
-                    .step = static_cast<float>(here[lane] / gain_),
+                    .sigma = static_cast<float>(sigma[lane]),
+                    .step = static_cast<float>(step[lane]),
                     .row = static_cast<std::int16_t>(row),
                     .saturated = saturated[lane]});
 }

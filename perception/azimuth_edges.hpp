@@ -61,7 +61,7 @@ class AzimuthEdgeFilter {
   static constexpr int kMargin = 8;  ///< wrapped samples on each side of a row
 
   void filter_row(const AnnulusTable& table, const std::uint8_t* pixels, int row);
-  void measure_widths(int columns, int least);
+  void measure_widths(int columns, std::int16_t least);
   [[nodiscard]] bool usable(const AnnulusTable& table, int row, int column) const;
   [[nodiscard]] bool saturates(int column) const;
   void add_hits(const AnnulusRow& circle, int row, std::span<const int> columns, std::vector<EdgeHit>& hits) const;
@@ -82,7 +82,7 @@ class AzimuthEdgeFilter {
   bool row_saturates_ = false;          ///< the row that is looked at
   std::vector<std::uint8_t> marks_;     ///< by column: whether there is an extremum
   std::vector<float> widths_;           ///< scratch of measure()
-  std::vector<int> columns_;            ///< of the row's hits
+  std::vector<int> columns_;            ///< of the row's hits, and room for two more
   std::vector<int> pairs_;              ///< hits of the row whose next one is near
   std::vector<double> shifts_;          ///< of the row's hits by their neighbours [rad]
   std::vector<std::int16_t> response_;  ///< kMargin + columns + kMargin

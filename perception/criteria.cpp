@@ -56,7 +56,8 @@ std::array<evidence::BinaryMass, 5> segment_criteria(const SegmentMeasures& meas
 void measure_points(std::span<const sensors::ScanPoint> points, const geometry::LineEstimate& line,
                     double beam_increment, const PointNoise& noise, const CriteriaParams& params,
                     SegmentMeasures& measures) {
-  const LineFit fit = judge_line(points, line, noise);
+  const DirectedLine directed = line;
+  const LineFit fit = judge_line(points, directed, noise);
   measures.support = fit.support;
   measures.density_per_m = measures.relative_density = 0.0;
   const double n = fit.support;
@@ -66,7 +67,6 @@ void measure_points(std::span<const sensors::ScanPoint> points, const geometry::
   measures.mean_residual_sigmas = correction * fit.mean_residual_sigmas;
   if (fit.support == 0) return;
   // From the first to the last reading and half a beam at either side.
-  const DirectedLine directed = line;
   double spacing = 0.0;
   for (const sensors::ScanPoint& point : points)
     spacing +=

@@ -28,7 +28,10 @@ struct PointNoise {
   /// Variance of a reading across a line with the given unit normal, if the true range is `range_m`. [m^2]
   [[nodiscard]] double variance_across(const Eigen::Vector2d& ray, double range_m,
                                        const Eigen::Vector2d& normal) const {
-    const double along = normal.dot(ray);
+    return variance_across(normal.dot(ray), range_m);
+  }
+  /// The same by what the ray has along the normal.
+  [[nodiscard]] double variance_across(double along, double range_m) const {
     const double kr2 = range.k_per_m * range_m * range_m;
     const double beam = params.beam_sigma_rad * range_m;
     return along * along * (range.sigma_0_m * range.sigma_0_m + kr2 * kr2) + (1.0 - along * along) * beam * beam +
@@ -62,7 +65,7 @@ struct LineFit {
 [[nodiscard]] LineFit fit_line(std::span<const sensors::ScanPoint> points, const PointNoise& noise);
 
 /// The residuals of points about a given line, as fit_line reports them.
-[[nodiscard]] LineFit judge_line(std::span<const sensors::ScanPoint> points, const geometry::LineEstimate& line,
+[[nodiscard]] LineFit judge_line(std::span<const sensors::ScanPoint> points, const DirectedLine& line,
                                  const PointNoise& noise);
 
 /// Residual of one point across a line, in expected standard deviations; signed along the line's normal.

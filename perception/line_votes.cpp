@@ -20,8 +20,8 @@ LineVotes::LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& cam
     : bins_(std::max(16, static_cast<int>(std::lround(kTurn / bin_rad)))) {
   for (int bin = 0; bin < bins_; ++bin) {
     const double azimuth = (bin + 0.5) * kTurn / bins_;
-    directions_.emplace_back(std::cos(azimuth), std::sin(azimuth));
-    in_image_.push_back(camera.image_direction(azimuth - camera.T_base_camera.theta));
+    directions_.push_back(
+        {camera.image_direction(azimuth - camera.T_base_camera.theta), {std::cos(azimuth), std::sin(azimuth)}});
   }
   for (const AnnulusRow& row : annulus.rows()) levers_.push_back(1.0 / row.radius_px - 1.0 / horizon_px);
   begin_.resize(2 * bins_ + 1);
@@ -31,7 +31,7 @@ LineVotes::LineVotes(const AnnulusTable& annulus, const sensors::OmniCamera& cam
 
 void LineVotes::reserve(std::size_t hits) {
   slots_.reserve(hits);
-  order_.reserve(hits);
+  hits_.reserve(hits);
   used_.reserve(hits);
   near_.reserve(hits);
   by_row_.reserve(hits);
@@ -52,11 +52,9 @@ void LineVotes::count_usable_rows(const AnnulusTable& annulus) {
   }
 }
 
-int LineVotes::bin_of(double azimuth) const { return wrapped(static_cast<int>(std::floor(azimuth * (bins_ / kTurn)))); }
-
 double LineVotes::usable_rows(double azimuth) const { return std::max(1, usable_rows_[bin_of(azimuth)]); }
 
-void LineVotes::count(const std::vector<EdgeHit>& hits) {
+void LineVotes::count(std::span<const EdgeHit> hits) {
   std::fill(begin_.begin(), begin_.end(), 0);
   slots_.resize(hits.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -64,17 +62,17 @@ void LineVotes::count(const std::vector<EdgeHit>& hits) {
     ++begin_[slots_[i] + 1];
   }
   for (std::size_t slot = 1; slot < begin_.size(); ++slot) begin_[slot] += begin_[slot - 1];
-  order_.resize(hits.size());
+  hits_.resize(hits.size());
   used_.assign(hits.size(), 0);
   // Fill every slot in the order of the hits (by row); begin_ moves to the ends, that is one slot on, and back.
-  for (std::size_t i = 0; i < hits.size(); ++i) order_[begin_[slots_[i]]++] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < hits.size(); ++i) hits_[begin_[slots_[i]]++] = hits[i];
   std::copy_backward(begin_.begin(), begin_.end() - 1, begin_.end());
   begin_[0] = 0;
 }
 
 const std::vector<LinePeak>& LineVotes::peaks(double least_share, double least_chance_sigmas) {
   peaks_.clear();
-  const double per_bin = static_cast<double>(order_.size()) / (2.0 * bins_);
+  const double per_bin = static_cast<double>(hits_.size()) / (2.0 * bins_);
   for (const int polarity : {-1, 1}) {
     const auto votes = [&](int bin) {
       const int slot = slot_of(polarity, wrapped(bin));
@@ -102,33 +100,32 @@ void LineVotes::for_each_near(const LinePeak& peak, double window_rad, Visit&& v
   const int reach = static_cast<int>(std::ceil(window_rad * bins_ / kTurn));
   for (int bin = peak.bin - reach; bin <= peak.bin + reach; ++bin) {
     const int slot = slot_of(peak.polarity, wrapped(bin));
-    for (int i = begin_[slot]; i < begin_[slot + 1]; ++i) visit(order_[i], bin);
+    for (int i = begin_[slot]; i < begin_[slot + 1]; ++i) visit(i, bin);
   }
 }
 
-/// A counting sort, as rows are few; the hits of one row stay in order.
-void LineVotes::sort_near_by_row(const std::vector<EdgeHit>& hits) {
-  std::fill(begin_of_row_.begin(), begin_of_row_.end(), 0);
-  for (const std::int32_t index : near_) ++begin_of_row_[hits[index].row + 1];
+/// A counting sort, as rows are few; the hits of one row stay in order. The rows are counted already.
+void LineVotes::sort_near_by_row() {
   for (std::size_t row = 1; row < begin_of_row_.size(); ++row) begin_of_row_[row] += begin_of_row_[row - 1];
   by_row_.resize(near_.size());
-  for (const std::int32_t index : near_) by_row_[begin_of_row_[hits[index].row]++] = index;
+  for (const std::int32_t i : near_) by_row_[begin_of_row_[hits_[i].row]++] = i;
 }
 
-double LineVotes::gather(const std::vector<EdgeHit>& hits, const LinePeak& peak, double window_rad,
-                         RadialPoints& points) {
+double LineVotes::gather(const LinePeak& peak, double window_rad, RadialPoints& points) {
   points.clear();
   near_.clear();
   middle_.clear();
-  for_each_near(peak, window_rad, [&](std::int32_t index, int bin) {
-    if (used_[index] != 0) return;
-    near_.push_back(index);
-    if (std::abs(bin - peak.bin) <= 1) middle_.push_back(geometry::wrap_angle(hits[index].azimuth - peak.azimuth));
+  std::fill(begin_of_row_.begin(), begin_of_row_.end(), 0);
+  for_each_near(peak, window_rad, [&](int i, int bin) {
+    if (used_[i] != 0) return;
+    near_.push_back(i);
+    ++begin_of_row_[hits_[i].row + 1];
+    if (std::abs(bin - peak.bin) <= 1) middle_.push_back(geometry::wrap_angle(hits_[i].azimuth - peak.azimuth));
   });
   if (middle_.empty()) return 0.0;
-  sort_near_by_row(hits);
-  for (const std::int32_t index : by_row_) {
-    const EdgeHit& hit = hits[index];
+  sort_near_by_row();
+  for (const std::int32_t i : by_row_) {
+    const EdgeHit& hit = hits_[i];
     points.push_back({.azimuth = geometry::wrap_angle(hit.azimuth - peak.azimuth),
                       .sigma = hit.sigma,
                       .lever = levers_[hit.row],
@@ -140,13 +137,12 @@ double LineVotes::gather(const std::vector<EdgeHit>& hits, const LinePeak& peak,
   return *median;
 }
 
-void LineVotes::use_up(const std::vector<EdgeHit>& hits, const LinePeak& peak, const RadialFit& fit, double window_rad,
-                       double own_rad) {
-  for_each_near(peak, window_rad + own_rad, [&](std::int32_t index, int) {
-    const EdgeHit& hit = hits[index];
+void LineVotes::use_up(const LinePeak& peak, const RadialFit& fit, double window_rad, double own_rad) {
+  for_each_near(peak, window_rad + own_rad, [&](int i, int) {
+    const EdgeHit& hit = hits_[i];
     const double distance =
         geometry::wrap_angle(hit.azimuth - peak.azimuth) - fit.azimuth - fit.slope * levers_[hit.row];
-    if (std::abs(distance) <= own_rad + 3.0 * hit.sigma) used_[index] = 1;
+    if (std::abs(distance) <= own_rad + 3.0 * hit.sigma) used_[i] = 1;
   });
 }
 

@@ -5,8 +5,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "geometry/angles.hpp"
 #include "perception/azimuth_edges.hpp"
 #include "perception/radial_fit.hpp"
 
@@ -32,8 +34,8 @@ class LineVotes {
   /// On how many circles a line can be seen, by azimuth: again where the table has been made anew.
   void count_usable_rows(const AnnulusTable& annulus);
 
-  /// Sorts the hits into bins. The indices into `hits` hold until the next call.
-  void count(const std::vector<EdgeHit>& hits);
+  /// Sorts the hits into bins.
+  void count(std::span<const EdgeHit> hits);
 
   /// Local maxima of three neighbouring bins' votes, most votes first.
   /// \param least_share         of the usable circles
@@ -42,41 +44,46 @@ class LineVotes {
 
   /// The unused hits near a peak as points relative to its azimuth, by row.
   /// \returns the median of those in the three bins.
-  double gather(const std::vector<EdgeHit>& hits, const LinePeak& peak, double window_rad, RadialPoints& points);
+  double gather(const LinePeak& peak, double window_rad, RadialPoints& points);
 
   /// Takes the hits of a fitted line out of the game.
-  void use_up(const std::vector<EdgeHit>& hits, const LinePeak& peak, const RadialFit& fit, double window_rad,
-              double own_rad);
+  void use_up(const LinePeak& peak, const RadialFit& fit, double window_rad, double own_rad);
 
   /// Circles on which a line at this azimuth can be seen; at least 1.
   [[nodiscard]] double usable_rows(double azimuth) const;
 
-  /// image_direction() of the middle of the bin.
-  [[nodiscard]] const Eigen::Vector2d& image_direction(double azimuth) const { return in_image_[bin_of(azimuth)]; }
-  /// Cosine and sine of the azimuth of the middle of the bin.
-  [[nodiscard]] const Eigen::Vector2d& direction(double azimuth) const { return directions_[bin_of(azimuth)]; }
+  /// Where an azimuth points to.
+  struct Direction {
+    Eigen::Vector2d in_image;  ///< image_direction()
+    Eigen::Vector2d in_base;
+  };
+  /// Of the middle of the azimuth's bin.
+  [[nodiscard]] const Direction& direction(double azimuth) const { return directions_[bin_of(azimuth)]; }
 
  private:
-  [[nodiscard]] int bin_of(double azimuth) const;  ///< azimuth in [-2 pi, 4 pi)
+  /// \param azimuth  in [-2 pi, 4 pi)
+  [[nodiscard]] int bin_of(double azimuth) const {
+    const int turned = static_cast<int>(azimuth * (bins_ / geometry::kTurn) + bins_);  // rounded down: not below 0
+    return wrapped(turned - bins_);
+  }
   [[nodiscard]] int wrapped(int bin) const { return bin < 0 ? bin + bins_ : bin < bins_ ? bin : bin - bins_; }
   [[nodiscard]] int slot_of(int polarity, int bin) const { return (polarity > 0 ? bins_ : 0) + bin; }
-  void sort_near_by_row(const std::vector<EdgeHit>& hits);
+  void sort_near_by_row();
   template <class Visit>
   void for_each_near(const LinePeak& peak, double window_rad, Visit&& visit) const;
 
   int bins_ = 0;
-  std::vector<Eigen::Vector2d> in_image_;    ///< by bin
-  std::vector<Eigen::Vector2d> directions_;  ///< by bin
-  std::vector<int> usable_rows_;             ///< by bin
-  std::vector<double> levers_;               ///< RadialPoint::lever by row
-  std::vector<std::int32_t> slots_;          ///< by hit
-  std::vector<int> begin_;                   ///< by slot, one more than there are: first of its hits in order_
-  std::vector<std::int32_t> order_;          ///< indices of hits, by slot, then row
-  std::vector<std::uint8_t> used_;           ///< by hit
+  std::vector<Direction> directions_;  ///< by bin
+  std::vector<int> usable_rows_;       ///< by bin
+  std::vector<double> levers_;         ///< RadialPoint::lever by row
+  std::vector<std::int32_t> slots_;    ///< by hit as counted
+  std::vector<int> begin_;             ///< by slot, one more than there are: first of its hits in hits_
+  std::vector<EdgeHit> hits_;          ///< by slot, then row
+  std::vector<std::uint8_t> used_;     ///< by hit
   std::vector<LinePeak> peaks_;
   // Scratch of gather().
   std::vector<double> middle_;
-  std::vector<std::int32_t> near_, by_row_;  ///< indices of hits
+  std::vector<std::int32_t> near_, by_row_;  ///< indices into hits_
   std::vector<int> begin_of_row_;
 };
 

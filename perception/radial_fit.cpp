@@ -55,9 +55,14 @@ double spread(const RadialPoints& points, const RadialFit& fit) {
   constexpr std::size_t kMost = 32;
   std::array<double, kMost> magnitudes{};
   const std::size_t step = 1 + (points.size() - 1) / kMost;
-  std::size_t count = 0, expected = 0;
+  std::size_t count = 0, expected = 0, of = points.blocks().size();
+  Lanes of_block;
   for (std::size_t i = 0; i < points.size(); i += step) {
-    const double magnitude = kOfMedian * std::abs(residual(points.blocks(), i, fit));
+    if (const std::size_t block = i / RadialPoints::kLanes; block != of) {
+      of = block;
+      of_block = kOfMedian * residuals(points.blocks()[of], fit).abs();
+    }
+    const double magnitude = of_block[static_cast<Eigen::Index>(i % RadialPoints::kLanes)];
     expected += magnitude <= 1.0 ? 1 : 0;
     magnitudes[count++] = magnitude;
   }
@@ -99,17 +104,6 @@ void RadialPoints::clear() {
   blocks_.clear();
   rows_.clear();
   steps_.clear();
-}
-
-void RadialPoints::push_back(const RadialPoint& point) {
-  const auto lane = static_cast<Eigen::Index>(size() % kLanes);
-  if (lane == 0) blocks_.emplace_back();
-  Block& block = blocks_.back();
-  block.azimuth[lane] = point.azimuth;
-  block.inverse_sigma[lane] = 1.0 / point.sigma;
-  block.lever[lane] = point.lever;
-  rows_.push_back(point.row);
-  steps_.push_back(point.step);
 }
 
 RadialPoint RadialPoints::operator[](std::size_t i) const {

@@ -36,7 +36,16 @@ class RadialPoints {
 
   void reserve(std::size_t points);
   void clear();
-  void push_back(const RadialPoint& point);
+  void push_back(const RadialPoint& point) {
+    const auto lane = static_cast<Eigen::Index>(size() % kLanes);
+    if (lane == 0) blocks_.emplace_back();
+    Block& block = blocks_.back();
+    block.azimuth[lane] = point.azimuth;
+    block.inverse_sigma[lane] = 1.0 / point.sigma;
+    block.lever[lane] = point.lever;
+    rows_.push_back(point.row);
+    steps_.push_back(point.step);
+  }
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] bool empty() const { return rows_.empty(); }

@@ -41,12 +41,14 @@ void check(const sensors::OmniImage& image, const sensors::OmniCamera& camera) {
   }
 }
 
-/// Asks for an image before it is used, in the order in which it lies in memory: the circles cross it in an order that
-/// no memory foresees.
+/// Brings an image near, in the order in which it lies in memory: the circles cross it in an order that no memory
+/// foresees. A byte of each cache line is read, for what is merely asked for may not come.
 void fetch(const cv::Mat& pixels) {
   constexpr std::size_t kLine = 64;
   const std::size_t bytes = pixels.total();
-  for (std::size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(pixels.data + i);
+  std::uint8_t sum = 0;
+  for (std::size_t i = 0; i < bytes; i += kLine) sum ^= pixels.data[i];
+  [[maybe_unused]] const volatile std::uint8_t keep = sum;  // or the compiler would leave the reads out
 }
 
 std::vector<double> annulus_radii(const sensors::OmniCamera& camera, const RadialLineParams& params) {
@@ -147,10 +149,10 @@ bool RadialLineExtractor::State::look(const std::uint8_t* pixels, Scene& scene) 
 void RadialLineExtractor::State::correct_hits() {
   const Eigen::Vector2d offset = rim.center_px() - annulus.center_px();
   for (EdgeHit& hit : hits) {
-    const Eigen::Vector2d& in_image = votes.image_direction(hit.azimuth);
+    const auto& [in_image, in_base] = votes.direction(hit.azimuth);
     const double turn = camera.azimuth_sign * (offset.x() * in_image.y() - offset.y() * in_image.x()) /
                         annulus.rows()[hit.row].radius_px;
-    double azimuth = hit.azimuth + turn - tilt.shift(hit.row, votes.direction(hit.azimuth));
+    double azimuth = hit.azimuth + turn - tilt.shift(hit.row, in_base);
     if (azimuth < 0.0) azimuth += kTurn;
     if (azimuth >= kTurn) azimuth -= kTurn;
     hit.azimuth = static_cast<float>(azimuth);
@@ -158,7 +160,7 @@ void RadialLineExtractor::State::correct_hits() {
 }
 
 void RadialLineExtractor::State::fit_peak(const LinePeak& peak, std::vector<RadialLine>& lines) {
-  const double start = votes.gather(hits, peak, params.window_rad, points);
+  const double start = votes.gather(peak, params.window_rad, points);
   if (points.empty()) return;
   RadialFit fit = fit_radial_line(points, start, sigma_slope, params.fit);
   const double steepest =
@@ -179,7 +181,7 @@ void RadialLineExtractor::State::fit_peak(const LinePeak& peak, std::vector<Radi
   const double own_share = 1.0 - std::pow(fit.sigma_slope / (params.fit.error_inflation * fit.scale * sigma_slope), 2);
   if (own_share > 0.5)
     slopes.push_back({peak.azimuth + fit.azimuth, fit.slope / own_share, fit.sigma_slope / std::sqrt(own_share)});
-  votes.use_up(hits, peak, fit, params.window_rad, params.own_hits_rad);
+  votes.use_up(peak, fit, params.window_rad, params.own_hits_rad);
 }
 
 void RadialLineExtractor::State::find_lines(std::vector<RadialLine>& lines) {

@@ -202,8 +202,9 @@ void Segmenter::merge(const Points& points) {
     if (best == pieces_.end() || best->merge_with == 0) return;
     const Piece& other = *(best + best->merge_with);
     const LineFit joint = fit_line(span(points, best->first, other.last), noise_);
-    const double growth = judge_line(span(points, best->first, best->last), joint.line, noise_).chi2 +
-                          judge_line(span(points, other.first, other.last), joint.line, noise_).chi2 -
+    const DirectedLine line = joint.line;
+    const double growth = judge_line(span(points, best->first, best->last), line, noise_).chi2 +
+                          judge_line(span(points, other.first, other.last), line, noise_).chi2 -
                           chi2_of_own_line(best->fit, best->size()) - chi2_of_own_line(other.fit, other.size());
     if (growth > params_.merge_chi2) {
       best->merge_cost = kNever;

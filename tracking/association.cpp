@@ -127,10 +127,14 @@ void Associator::compare_points(const Expected& track, const perception::Scene& 
                                 const AssociationParams& params) {
   const PolarPoint& from_base = track.prediction->point;
   const PolarPoint from_camera = any_bearing_only_ ? seen_from(from_base, scene.camera_origin) : from_base;
+  const double gate = params.sigmas.no_full_from * params.sigmas.no_full_from;
   for (int i = 0; i < static_cast<int>(scene.primitives.size()); ++i) {
     const perception::Primitive& primitive = scene.primitives[i];
     if (primitive.type == PrimitiveType::kWall) continue;
     const PolarPoint& expected = primitive.bearing_only ? from_camera : from_base;
+    // Most are too far off by their azimuths, whatever their ranges.
+    const double off = geometry::angle_difference(points_[i].azimuth, expected.azimuth);
+    if (off * off > gate * (points_[i].covariance(0, 0) + expected.covariance(0, 0))) continue;
     const double sigmas = distance_in_sigmas(points_[i], expected, !primitive.bearing_only);
     if (!(sigmas < params.sigmas.no_full_from)) continue;
     double reliability = 1.0;

@@ -54,13 +54,11 @@ class Votes : public ::testing::Test {
     votes_.count(hits_);
     return votes_.peaks(share, kChance);
   }
-  double gather(const LinePeak& peak) {
-    return votes_.gather(hits_, peak, kWindow_rad, points_);
-  }
+  double gather(const LinePeak& peak) { return votes_.gather(peak, kWindow_rad, points_); }
   RadialFit fit(const LinePeak& peak) { return fit_radial_line(points_, gather(peak), 1.0, {}); }
   void use_up(const LinePeak& peak) {
     const RadialFit line = fit(peak);
-    votes_.use_up(hits_, peak, line, kWindow_rad, kOwn_rad);
+    votes_.use_up(peak, line, kWindow_rad, kOwn_rad);
   }
 
   sensors::OmniCamera camera_;
@@ -156,8 +154,9 @@ TEST_F(Votes, HitsThatAreUsedUpAreNotFoundTwice) {
 TEST_F(Votes, DirectionsAreThoseOfTheAzimuthAndOfTheCamera) {
   for (const double azimuth : {0.0, 1.0, -2.0, 6.2, 7.0}) {
     const Eigen::Vector2d expected(std::cos(azimuth), std::sin(azimuth));
-    EXPECT_LT((votes_.direction(azimuth) - expected).norm(), kBin_rad);
-    EXPECT_LT((votes_.image_direction(azimuth) - camera_.image_direction(azimuth)).norm(), kBin_rad);
+    const LineVotes::Direction& found = votes_.direction(azimuth);
+    EXPECT_LT((found.in_base - expected).norm(), kBin_rad);
+    EXPECT_LT((found.in_image - camera_.image_direction(azimuth)).norm(), kBin_rad);
   }
 }
 
