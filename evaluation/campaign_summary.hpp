@@ -38,8 +38,8 @@ struct GroupSummary {
   int runs = 0;
   int refused = 0;  ///< whose world could not be made
   long acquisitions = 0;
-  long misleading = 0;         ///< acquisitions
-  /// Those that poses rest on whose status is localized: what the fault priors of the integrity monitor are measured by.
+  long misleading = 0;  ///< acquisitions
+  /// Matches of localized poses: what the fault priors of the integrity monitor are measured by.
   /// Elsewhere something else than the monitor speaks against the pose.
   ClassedMatchCounts matches;
   std::vector<Measure> measures;

@@ -53,7 +53,7 @@ struct ClassedMatchCounts {
   ClassedMatchCounts& operator+=(const ClassedMatchCounts& other);
 };
 
-/// As tables call a class: "points_from_0.85", by the BetP(YES) of their tracks, up to where the next class begins; and
+/// As tables call a class: "points_from_0.99", by the BetP(YES) of their tracks, up to where the next class begins; and
 /// "walls".
 [[nodiscard]] std::string fault_class_name(std::size_t fault_class, const localization::IntegrityParams& params = {});
 

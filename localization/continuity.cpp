@@ -10,11 +10,11 @@ namespace credo::localization {
 
 bool Continuity::breaks_off(const perception::Scene& scene, std::span<const tracking::Track> tracks,
                             std::span<const tracking::Match> matches, sensors::Timestamp latest) {
-  const bool another = std::exchange(camera_seen_, scene.camera_seen) != scene.camera_seen ||
-                       std::exchange(range_finder_seen_, scene.range_finder_seen) != scene.range_finder_seen;
+  const bool other_camera = std::exchange(camera_seen_, scene.camera_seen) != scene.camera_seen;
+  const bool other_range_finder = std::exchange(range_finder_seen_, scene.range_finder_seen) != scene.range_finder_seen;
   const auto was_seen = [latest](const tracking::Track& track) { return track.last_seen_time == latest; };
   const auto followed = std::count_if(tracks.begin(), tracks.end(), was_seen);
-  if (another || followed < params_.least_tracks) return false;
+  if (other_camera || other_range_finder || followed < params_.least_tracks) return false;
   const auto gone_on = std::count_if(matches.begin(), matches.end(), [&](const tracking::Match& match) {
     return was_seen(tracks[static_cast<std::size_t>(match.track)]);
   });

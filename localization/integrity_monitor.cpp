@@ -31,7 +31,7 @@ double largest_sigma(const Matrix3d& covariance) {
 }
 
 /// How far a pose is from another in standard deviations of the difference: the root of chi-square with 3 degrees of
-/// freedom over 3, so that about 1 is expected.
+/// freedom over 3, so that about 1 is expected. By the models, whatever the misfit: what lies makes the misfit, too.
 double normalised(const Vector3d& shift, const Matrix3d& without, const Matrix3d& with) {
   // Without what is taken out the pose is less sure; where the two are equal, what is out has said nothing.
   const Matrix3d difference = without - with + 1e-3 * with;
@@ -281,20 +281,22 @@ void IntegrityMonitor::add_points(const PoseSolution& solution, double walls_mis
   StateMatrix information = solution.prior_information;
   StateVector gradient = -(solution.prior_information * solution.step);
   const double weight = 1.0 / std::max(1.0, walls_misfit);
-  for (Landmark& landmark : landmarks_) {
-    if (!landmark.wall) continue;
-    landmark.information *= weight;
-    landmark.weighted_residual *= weight;
-    take_in(landmark, information, gradient);
-  }
+  const auto weighted = [weight](Landmark wall) {
+    wall.information *= weight;
+    wall.weighted_residual *= weight;
+    return wall;
+  };
+  for (const Landmark& landmark : landmarks_)
+    if (landmark.wall) take_in(weighted(landmark), information, gradient);
   const ProbabilityInterval points = expected_faults(false);
+  const ProbabilityInterval two_and_more = either(at_least(kPointsTogether - 1, points), params_.points_together);
   add_without(information, gradient, either(at_least(kPointsTogether, points), params_.points_together));
   for (const Landmark& landmark : landmarks_) {
     if (!landmark.wall) continue;
     StateMatrix without_wall = information;
     StateVector with_wall = gradient;
-    leave_out(landmark, without_wall, with_wall);
-    add_without(without_wall, with_wall, both(landmark.fault, at_least(2, points)));
+    leave_out(weighted(landmark), without_wall, with_wall);
+    add_without(without_wall, with_wall, both(landmark.fault, two_and_more));
   }
 }
 

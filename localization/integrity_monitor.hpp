@@ -47,7 +47,7 @@ struct IntegrityParams {
 /// Matches are classed by how often they are wrong: points as IntegrityParams::point_faults has them, then walls.
 inline constexpr std::size_t kFaultClasses = std::tuple_size_v<decltype(IntegrityParams::point_faults)> + 1;
 inline constexpr std::size_t kWallFaultClass = kFaultClasses - 1;
-/// From so many wrong points at once on none is believed under a hypothesis.
+/// Where so many points are wrong at once, no point is believed.
 inline constexpr int kPointsTogether = 3;
 
 /// \param belief  BetP(YES) that the track of the match exists; of no matter for a wall

@@ -49,9 +49,9 @@ struct Localization {
   bool off_plan = false;            ///< much of the scan does not lie on the plan
   bool inconsistent = false;        ///< landmarks contradict each other
   bool contradicted = false;        ///< camera, range finder and wheels do not agree
-  bool doubted = false;     ///< lately the plan did not look as it should, and nothing has confirmed the pose since
-  bool broken_off = false;  ///< much of what was followed is not seen any more
-  bool elsewhere = false;   ///< another pose is far more plausible
+  bool doubted = false;             ///< lately something spoke against the pose, and nothing has confirmed it since
+  bool broken_off = false;          ///< much of what was followed is not seen any more
+  bool elsewhere = false;           ///< another pose is far more plausible
   ProtectionLevels protection = {};
   Status status = Status::kInitializing;
   int detected = 0;                    ///< primitives in the scene
@@ -60,6 +60,11 @@ struct Localization {
   std::vector<Hypothesis> hypotheses;  ///< empty unless there is more than one
   std::string reason;                  ///< why it is unsure, in words; empty while localized
 };
+
+/// Whether something that is seen now speaks against the pose.
+[[nodiscard]] inline bool is_contested(const Localization& fix) {
+  return fix.broken_off || fix.unrecognised || fix.off_plan || fix.inconsistent || fix.contradicted;
+}
 
 [[nodiscard]] const char* to_string(Status status);
 std::ostream& operator<<(std::ostream& out, const Localization& localization);

@@ -76,11 +76,6 @@ struct Limits {
   bool position_known, heading_known, guarded, as_predicted, believed;
 };
 
-bool is_contested(const Localization& localization) {
-  return localization.broken_off || localization.unrecognised || localization.off_plan || localization.inconsistent ||
-         localization.contradicted;
-}
-
 const char* too_little_seen(const Localization& localization) {
   if (localization.detected == 0) return "nothing is seen: the pose is predicted";
   if (localization.matched == 0) return "nothing matches the plan: the pose is predicted";

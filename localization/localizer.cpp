@@ -238,9 +238,11 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   std::optional<Integrity> integrity;
   if (params.method == perception::Method::kDefault) {
     fix.broken_off = broken_off && lost_sight();
-    misfit.add(fit.observations, fit.solution);
-    fix.inconsistent = misfit.contradicting();
-    fix.estimate.covariance *= misfit.variance_factors().all;
+    if (!fit.observations.empty()) {
+      misfit.add(fit.observations, fit.solution);
+      fix.inconsistent = misfit.contradicting();
+      fix.estimate.covariance += (misfit.variance_factors().all - 1.0) * fit.pose.covariance();
+    }
     integrity = watch();
     fix.protection = integrity->protection;
     if (integrity->landmarks >= params.belief.least_in_sight) evidence.separation = integrity->separation;
@@ -291,8 +293,8 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   const std::vector<Match>& matches = s.tracker.associate(scene);
 
   s.fit.new_matches.clear();
-  s.broken_off =
-      !s.history.empty() && s.continuity.breaks_off(scene, s.tracker.tracks(), matches, s.history.latest().time);
+  s.broken_off = s.params.method == perception::Method::kDefault && !s.history.empty() &&
+                 s.continuity.breaks_off(scene, s.tracker.tracks(), matches, s.history.latest().time);
   s.jumped = s.found_elsewhere = false;
   // 3. The pose from what is matched; 4. the map for what has appeared, and the pose again.
   if (s.absolute)

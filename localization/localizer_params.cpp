@@ -230,6 +230,7 @@ void check_misfit(const ParameterCheck& check, const MisfitParams& p) {
   check.positive("outlier", p.outlier);
   check.share("memory", p.memory);
   check.positive("usual_dofs", p.usual_dofs);
+  check.share("least", p.least);
   check.positive("contradiction", p.contradiction);
 }
 

@@ -34,14 +34,15 @@ struct Localizer::State {
   PoseHypotheses elsewhere;  ///< where the robot may be, while its pose is unknown or in doubt
   bool absolute;             ///< poses are in the map frame, not relative to the start
   PoseTrust trust;
-  SceneFit fit;                  ///< the latest pose and what it rests on
-  SceneFit other;                ///< another one that is tried
-  CalibratedPose predicted;      ///< from the latest pose
-  CalibratedPose wide;           ///< the same, less sure
-  int matched_before = 0;        ///< primitives that the latest fix rests on
-  int doubted = 0;               ///< acquisitions in a row in which the plan was not recognised
-  bool broken_off = false;       ///< in this acquisition: much of what was followed is not seen any more
-  bool jumped = false;           ///< in this acquisition: the pose was found some way from where it was expected
+  SceneFit fit;              ///< the latest pose and what it rests on
+  SceneFit other;            ///< another one that is tried
+  CalibratedPose predicted;  ///< from the latest pose
+  CalibratedPose wide;       ///< the same, less sure
+  int matched_before = 0;    ///< primitives that the latest fix rests on
+  int doubted = 0;           ///< acquisitions in a row in which the plan was not recognised
+  bool broken_off = false;   ///< in this acquisition: much of what was followed is not seen any more
+  bool jumped =
+      false;  ///< in this acquisition: the pose was found some way from where it was expected, or may have been
   bool found_elsewhere = false;  ///< in this acquisition: the pose is another one than was thought
   PoseHistory history;
   MotionPredictor predictor;

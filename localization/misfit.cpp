@@ -15,7 +15,7 @@ void Misfit::add(std::span<const Observation> observations, const PoseSolution& 
   assert(observations.size() == solution.mahalanobis_squared.size());
   Sum all, walls;
   for (std::size_t k = 0; k < observations.size(); ++k) {
-    const double square = std::min(solution.mahalanobis_squared[k], params_.outlier);
+    const double square = std::min(params_.outlier, solution.mahalanobis_squared[k]);
     const int dofs = observations[k].dimension();
     all.squares += square;
     all.dofs += dofs;
@@ -25,6 +25,10 @@ void Misfit::add(std::span<const Observation> observations, const PoseSolution& 
   }
   remember(all, all_);
   remember(walls, walls_);
+}
+
+double Misfit::factor_of(const Sum& sum) const {
+  return std::max(params_.least, sum.squares / (sum.dofs * params_.usual));
 }
 
 void Misfit::remember(const Sum& latest, Sum& sum) const {

@@ -58,7 +58,7 @@ void Localizer::State::search_pose(const Scene& scene, bool odometry) {
   if (match_anew(scene, wide) || odometry) return;
   const double turn = params.unforeseen_turn_sigma_rad;
   widen(wide, Eigen::Vector3d(0.0, 0.0, turn * turn).asDiagonal());
-  // Without wheels nothing but what goes on to be matched tells that the robot has not turned round.
+  // Without wheels only matches that go on show that the robot has not turned round.
   if (!match_anew(scene, wide) && lost_sight()) jumped = true;
 }
 

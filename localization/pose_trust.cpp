@@ -71,8 +71,7 @@ void PoseTrust::weigh(const LocalizationEvidence& evidence, const evidence::Bina
   const bool recognised = !recovering(evidence) ||
                           recognition_belief(evidence, belief_).yes >= 0.5 * belief_.recognised.max_yes ||
                           evidence.in_sight < belief_.least_in_sight;
-  const bool contested = fix.unrecognised || fix.off_plan || fix.inconsistent || fix.contradicted;
-  undoubted_ = contested || !recognised ? 0 : undoubted_ + 1;
+  undoubted_ = is_contested(fix) || !recognised ? 0 : undoubted_ + 1;
   in_place_ = integrity == nullptr || (as_foreseen ? undoubted_ > 0 : borne_out(evidence));
   strayed_ = !as_foreseen && !in_place_;
   if (as_foreseen) borne_out_ = 0;

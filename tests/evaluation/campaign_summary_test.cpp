@@ -100,12 +100,13 @@ TEST(CampaignSummary, CountsMatchesByClassInEveryGroup) {
 
 TEST(CampaignSummary, CountsFaultsWhereNothingElseSpeaksAgainstThePose) {
   CampaignRow trusted = row(0.0), doubted = row(0.0), together = row(0.0);
-  trusted.matches.classes = {{{.matches = 9, .wrong = 2}}};
+  trusted.matches.classes = {{{.matches = 8, .wrong = 2}}};
+  trusted.matches.classes.back() = {.matches = 1, .wrong = 1};  // a wall is no point
   together.matches.classes = {{{.matches = 4, .wrong = 2}, {.matches = 4, .wrong = 1}}};
   doubted.matches.classes = {{{.matches = 5, .wrong = 5}}};
   doubted.sample.localization.status = localization::Status::kUncertain;
   const std::vector runs{run_of(1, {trusted, together, doubted, doubted, row(0.0)})};
-  EXPECT_EQ(summarise(kSpec, runs).groups[0].matches.total(), (MatchCounts{.matches = 17, .wrong = 5}));
+  EXPECT_EQ(summarise(kSpec, runs).groups[0].matches.total(), (MatchCounts{.matches = 17, .wrong = 6}));
   EXPECT_DOUBLE_EQ(value_of(runs, "points_together"), 0.5);
 }
 

@@ -55,8 +55,10 @@ TEST_F(Followed, SaysNothingWhereAnotherInstrumentSees) {
   scene.camera_seen = false;
   EXPECT_FALSE(breaks_off(40, 5));
   EXPECT_TRUE(breaks_off(40, 5));
-  scene.range_finder_seen = false;
+  scene.camera_seen = true;
+  scene.range_finder_seen = false;  // both at once
   EXPECT_FALSE(breaks_off(40, 0));
+  EXPECT_TRUE(breaks_off(40, 0));
 }
 
 }  // namespace

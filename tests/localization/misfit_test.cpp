@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -31,7 +32,7 @@ TEST(Misfit, IsUsualBeforeAnythingIsSeen) {
 
 TEST(Misfit, TellsByHowMuchErrorsAreLargerThanTheirModels) {
   const MisfitParams params{.usual = 1.0};
-  for (const double scale : {0.5, 1.0, 1.5}) {
+  for (const double scale : {0.9, 1.0, 1.5}) {
     Misfit misfit(params);
     std::mt19937_64 random(7);
     std::normal_distribution<double> error(0.0, scale);
@@ -80,6 +81,19 @@ TEST(Misfit, ManyContradictOneIsAnOutlier) {
   }
   EXPECT_FALSE(one.contradicting());
   EXPECT_TRUE(many.contradicting());
+}
+
+TEST(Misfit, OfFewLandmarksThatThePoseFollowsSaysLittle) {
+  Misfit misfit;
+  for (int i = 0; i < 20; ++i) add(misfit, {0.0, 0.0});
+  EXPECT_DOUBLE_EQ(misfit.variance_factors().all, MisfitParams{}.least);
+}
+
+TEST(Misfit, ANumberThatIsNoneCountsAsAnOutlier) {
+  Misfit none, outlier;
+  add(none, {1.0, std::numeric_limits<double>::quiet_NaN()});
+  add(outlier, {1.0, 1e6});
+  EXPECT_DOUBLE_EQ(none.variance_factors().all, outlier.variance_factors().all);
 }
 
 TEST(Misfit, Fades) {
