@@ -268,6 +268,8 @@ void check_calibration_walk(const ParameterCheck& check, const CalibrationWalk& 
 
 /// What is the localizer's own.
 void check_own(const ParameterCheck& check, const LocalizerParams& p) {
+  check.require(p.trust.returned_innovation <= p.status.max_innovation, "trust.returned_innovation",
+                p.trust.returned_innovation, "at most status.max_innovation");
   check.share("search_below", p.search_below);
   check.share("search_matched_below", p.search_matched_below);
   check.not_negative("search_gain", p.search_gain);

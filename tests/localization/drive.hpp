@@ -45,7 +45,9 @@ inline sensors::Rig rig() {
 /// A drive through the room: acquisitions with scans and odometry, and the truth.
 class Drive {
  public:
-  explicit Drive(std::uint64_t seed, const geometry::FloorPlan& plan = room()) : random_(seed), map_(plan) {}
+  /// \param noise_m  of the ranges; as the rig says it is
+  explicit Drive(std::uint64_t seed, const geometry::FloorPlan& plan = room(), double noise_m = 0.005)
+      : random_(seed), map_(plan), noise_m_(noise_m) {}
 
   sensors::Acquisition acquire(const Pose2& truth, const Pose2& step, bool blind = false) {
     sensors::Acquisition acquisition;
@@ -56,7 +58,7 @@ class Drive {
     for (int i = 0; i < scanner.count; ++i) {
       const double angle = truth.theta + scanner.beam_angle(i);
       const double range = map_.cast(truth.translation(), {std::cos(angle), std::sin(angle)}, 10.0);
-      scan.ranges_m.push_back(blind ? std::nanf("") : static_cast<float>(range + 0.005 * normal_(random_)));
+      scan.ranges_m.push_back(blind ? std::nanf("") : static_cast<float>(range + noise_m_ * normal_(random_)));
     }
     acquisition.scan = scan;
     const Pose2 measured{step.x * (1.0 + 0.02 * normal_(random_)), step.y, step.theta + 0.01 * normal_(random_)};
@@ -70,6 +72,7 @@ class Drive {
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
   LandmarkMap map_;
+  double noise_m_;
   sensors::Timestamp time_ = 0;
   bool first_ = true;
 };

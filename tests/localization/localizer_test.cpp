@@ -29,6 +29,19 @@ TEST(Localizer, FollowsADriveFromAnInitialPoseThatIsSomewhatWrong) {
   }
 }
 
+TEST(Localizer, WhatScattersMoreThanItsModelIsKnownLessWell) {
+  const auto variance_after_a_drive = [](double noise_m) {
+    const Pose2 start{1.0, 1.0, 0.3}, step{0.2, 0.0, 0.08};
+    Drive drive(3, room(), noise_m);
+    Pipeline localize(room(), given(start));
+    Localization fix;
+    Pose2 truth = start;
+    for (int i = 0; i < 6; ++i) fix = localize(drive.acquire(truth = truth * step, step));
+    return fix.estimate.covariance.topLeftCorner<2, 2>().trace();
+  };
+  EXPECT_GT(variance_after_a_drive(0.02), 2.0 * variance_after_a_drive(0.005));
+}
+
 TEST(Localizer, BlindItPredictsGrowsUncertainAndSaysSoAndRecovers) {
   Drive drive(4);
   Pipeline localize(room(), given({1.0, 1.5, 0.0}));
