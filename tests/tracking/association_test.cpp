@@ -21,8 +21,6 @@ using namespace test;  // NOLINT: the helpers of these tests
 using evidence::MatchDecision;
 using perception::Method;
 
-constexpr auto kCorner = PrimitiveType::kCorner;
-constexpr auto kEdge = PrimitiveType::kEdge;
 constexpr auto kMatched = MatchDecision::kMatched;
 constexpr auto kNone = MatchDecision::kNone;
 constexpr auto kUndecided = MatchDecision::kUndecided;

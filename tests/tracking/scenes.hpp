@@ -19,6 +19,10 @@ using perception::Primitive;
 using perception::PrimitiveType;
 using perception::Scene;
 
+inline constexpr auto kCorner = PrimitiveType::kCorner;
+inline constexpr auto kEdge = PrimitiveType::kEdge;
+inline constexpr auto kOther = PrimitiveType::kOther;
+
 inline Primitive point(PrimitiveType type, const Eigen::Vector2d& position) {
   Primitive p;
   p.type = type;

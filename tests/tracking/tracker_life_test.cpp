@@ -6,8 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include "tests/tracking/scenes.hpp"
 
 namespace credo::tracking {
@@ -16,10 +14,6 @@ namespace {
 using namespace test;  // NOLINT: the helpers of these tests
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-constexpr auto kCorner = PrimitiveType::kCorner;
-constexpr auto kEdge = PrimitiveType::kEdge;
-constexpr auto kOther = PrimitiveType::kOther;
 
 TEST(Tracker, DiesAtTheFifthOrSixthMiss) {
   // Clerentin et al., fig. 21: tracked until acquisition 7, lost at 12. Masses as in their table 1.

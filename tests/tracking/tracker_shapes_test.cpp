@@ -3,10 +3,7 @@
 
 #include "tracking/tracker.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <sstream>
 
 #include "tests/tracking/scenes.hpp"
 
@@ -14,12 +11,6 @@ namespace credo::tracking {
 namespace {
 
 using namespace test;  // NOLINT: the helpers of these tests
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
-
-constexpr auto kCorner = PrimitiveType::kCorner;
-constexpr auto kEdge = PrimitiveType::kEdge;
-constexpr auto kOther = PrimitiveType::kOther;
 
 TEST(Tracker, FollowsABearingWithoutARange) {
   Tracker tracker;

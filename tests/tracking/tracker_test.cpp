@@ -14,12 +14,7 @@ namespace credo::tracking {
 namespace {
 
 using namespace test;  // NOLINT: the helpers of these tests
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-constexpr auto kCorner = PrimitiveType::kCorner;
-constexpr auto kEdge = PrimitiveType::kEdge;
-constexpr auto kOther = PrimitiveType::kOther;
 
 TEST(Tracker, FollowsAConstantChangeOfAzimuth) {
   // The first step of a track is predicted without a rate: the paper's breakpoints let it be no more than 2.2 degrees.
