@@ -29,10 +29,11 @@ void PoseHypotheses::clear() {
   scenes_ = 0;
 }
 
-bool PoseHypotheses::held_near(const geometry::Pose2& pose) const {
-  return std::any_of(held_.begin(), held_.end(), [&](const Held& held) {
+PoseHypotheses::Held* PoseHypotheses::held_near(const geometry::Pose2& pose) {
+  const auto found = std::find_if(held_.begin(), held_.end(), [&](const Held& held) {
     return meet(held.estimate.pose, pose, params_.meet_m, params_.meet_rad);
   });
+  return found == held_.end() ? nullptr : &*found;
 }
 
 void PoseHypotheses::update(const Scene& scene, const PoseEstimate& motion) {
@@ -103,7 +104,9 @@ void PoseHypotheses::doubt() {
   none_ = std::clamp(none_, -params_.most_against_none, params_.most_against_none);
 }
 
-/// Candidates that are not held yet join, as plausible as `log_of_best` and what they lack to the best pose held.
+/// Candidates that are not held yet join, as plausible as `log_of_best` and what they lack to the best pose held. Where
+/// one is held but did not find its way from where the wheels led (they slipped in a turn, and what is near fits
+/// nowhere), it is put there, and what it lacked on the way is not held against it.
 /// \param within  log ratio behind that pose at which a candidate does not join
 void PoseHypotheses::search_again(const Scene& scene, double within, double log_of_best) {
   const double best_now = held_.front().now.log_ratio;
@@ -112,8 +115,14 @@ void PoseHypotheses::search_again(const Scene& scene, double within, double log_
   for (const PoseCandidate& candidate : search_->search(scene)) {
     const double behind = candidate.plausibility.log_ratio - best_now;
     if (behind < -within) break;
-    if (held_near(candidate.estimate.pose)) continue;
     const double log = log_of_best + std::clamp(behind, -params_.most_at_once, 0.0);
+    if (Held* held = held_near(candidate.estimate.pose)) {
+      if (candidate.plausibility.log_ratio < held->now.log_ratio + params_.model_error) continue;
+      held->estimate = candidate.estimate;
+      held->now = candidate.plausibility;
+      held->log = std::max(held->log, std::min(log, 0.0));
+      continue;
+    }
     ahead = std::max(ahead, log);
     kept_.push_back({.estimate = candidate.estimate, .log = log, .now = candidate.plausibility, .scenes = 1});
   }

@@ -100,7 +100,7 @@ class PoseHypotheses {
   void search_again(const perception::Scene& scene, double within, double log_of_best);
   void tidy();
   void fit_best(const perception::Scene& scene);
-  [[nodiscard]] bool held_near(const geometry::Pose2& pose) const;
+  [[nodiscard]] Held* held_near(const geometry::Pose2& pose);
   [[nodiscard]] double belief_in_best() const;
   [[nodiscard]] bool convincing() const;
 

@@ -49,6 +49,11 @@ class Robot {
       finder_.hypotheses.update(scene(), driven(step));
     }
   }
+  /// Turns on the spot; the wheels slip and tell `told_rad`.
+  void turn(double by_rad, double told_rad) {
+    at_ = at_ * Pose2{0.0, 0.0, by_rad};
+    finder_.hypotheses.update(scene(), driven({0.0, 0.0, told_rad}));
+  }
   /// Carried away without noticing.
   void carry_to(const Pose2& pose) {
     at_ = pose;
@@ -100,6 +105,18 @@ TEST(PoseHypotheses, InASymmetricRoomBothPosesStayAndNoneIsBelieved) {
   EXPECT_TRUE(robot.holds(robot.at()));
   EXPECT_TRUE(robot.holds({6.0 - robot.at().x, 4.0 - robot.at().y, robot.at().theta + std::numbers::pi}));
   EXPECT_LT(robot.hypotheses().listed().front().belief, 0.1);
+}
+
+TEST(PoseHypotheses, InASymmetricRoomBothPosesStayWhereTheWheelsSlipInATurn) {
+  Robot robot(test::outline({{0, 0}, {12, 0}, {12, 8}, {0, 8}}), {2.0, 3.0, 0.2});
+  robot.drive(6, 0.05);
+  robot.turn(-1.8, -1.65);
+  for (int step = 0; step < 8; ++step) {
+    robot.drive(1);
+    EXPECT_FALSE(robot.hypotheses().resolved());
+    EXPECT_TRUE(robot.holds(robot.at()));
+    EXPECT_TRUE(robot.holds({12.0 - robot.at().x, 8.0 - robot.at().y, robot.at().theta + std::numbers::pi}));
+  }
 }
 
 TEST(PoseHypotheses, ARoomThatRepeatsIsToldByTheWayOutOfIt) {
