@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -18,19 +17,6 @@ namespace {
 
 constexpr double kTableBins = 400.0;                            // at most, over the range
 constexpr std::size_t kMostTableBytes = std::size_t{64} << 20;  // of the increments kept
-
-/// Narrows [low, high] to the x on the inner side of an edge through the apex: all (x, dy) with
-/// cross(edge, (x, dy)) * side >= 0.
-void clip(double edge_x, double edge_y, double side, double dy, double& low, double& high) {
-  const double slope = -side * edge_y;  // of the cross product in x
-  const double constant = side * edge_x * dy;
-  if (slope > 0.0)
-    low = std::max(low, -constant / slope);
-  else if (slope < 0.0)
-    high = std::min(high, -constant / slope);
-  else if (constant < 0.0)
-    high = -std::numeric_limits<double>::infinity();
-}
 
 }  // namespace
 
@@ -79,41 +65,24 @@ void FanPainter::forget_tables_before(std::size_t bytes) {
   table_bytes_ += bytes;
 }
 
-FanPainter::Fan FanPainter::fan(const geometry::Pose2& pose, double reach_m) const {
-  const double c = std::cos(pose.theta), s = std::sin(pose.theta);
-  const double ch = std::cos(half_width_rad_), sh = std::sin(half_width_rad_);
-  return {.x = (pose.x - georeference_.origin_x_m) / georeference_.resolution_m,
-          .y = (pose.y - georeference_.origin_y_m) / georeference_.resolution_m,
-          .axis_x = c,
-          .axis_y = s,
-          .right_x = c * ch + s * sh,
-          .right_y = s * ch - c * sh,
-          .left_x = c * ch - s * sh,
-          .left_y = s * ch + c * sh,
-          .radius = reach_m / georeference_.resolution_m,
-          .shift_m = 0.0};
-}
-
-void FanPainter::paint_rows(const Fan& fan, const Table& table, int begin, int end) {
-  const float axis_x = static_cast<float>(fan.axis_x), axis_y = static_cast<float>(fan.axis_y);
+void FanPainter::paint_rows(const Fan& fan, const Table& table, double shift_m) {
+  const float axis_x = static_cast<float>(fan.axis_x()), axis_y = static_cast<float>(fan.axis_y());
   const float rho_bins = static_cast<float>(georeference_.resolution_m / rho_bin_m_);
   const float widest = static_cast<float>(std::sin(half_width_rad_));
   const float angle_bins = static_cast<float>(kAngleBins) / (widest * widest);
-  const float shift = static_cast<float>(fan.shift_m / rho_bin_m_);
+  const float shift = static_cast<float>(shift_m / rho_bin_m_);
   const float last_rho = static_cast<float>(table.rows.size() - 1);
   std::array<std::int32_t, grids::Tile::kSide> entry{};
   const evidence::FixedLogCommonality* const entries = table.rows.front().data();
 
-  for (int row = begin; row < end; ++row) {
-    const double dy = row + 0.5 - fan.y;
-    const double half = std::sqrt(std::max(0.0, fan.radius * fan.radius - dy * dy));
-    double low = -half, high = half;
-    clip(fan.right_x, fan.right_y, 1.0, dy, low, high);
-    clip(fan.left_x, fan.left_y, -1.0, dy, low, high);
-    if (!(low < high)) continue;
-    int column = first_centre(fan.x + low);
-    window_.for_run(row, column, first_centre(fan.x + high), [&](grids::Tile& tile, int place, int count) {
-      const float y = static_cast<float>(dy), first_x = static_cast<float>(column + 0.5 - fan.x);
+  const CellRun rows = fan.rows();
+  for (int row = rows.begin; row < rows.end; ++row) {
+    const CellRun run = fan.run(row);
+    if (run.begin >= run.end) continue;
+    const double dy = row + 0.5 - fan.y();
+    int column = run.begin;
+    window_.for_run(row, run.begin, run.end, [&](grids::Tile& tile, int place, int count) {
+      const float y = static_cast<float>(dy), first_x = static_cast<float>(column + 0.5 - fan.x());
       for (int i = 0; i < count; ++i) {
         const float x = first_x + static_cast<float>(i);
         const float square = std::max(x * x + y * y, 1e-12F);
@@ -143,13 +112,8 @@ void FanPainter::paint(grids::EvidentialGrid& grid, const geometry::Pose2& pose,
   window_.open(grid, {least, most.x - least.x + 1, most.y - least.y + 1});
 
   const Table& increments = table(reading_m, level);
-  Fan f = fan(pose, reach_m);
-  if (std::isfinite(reading_m)) f.shift_m = increments.reading_m - reading_m;
-  // The fan's rows: between the apex, the corners, and where the arc points straight up or down.
-  double low = std::min({0.0, f.right_y, f.left_y}), high = std::max({0.0, f.right_y, f.left_y});
-  if (f.right_x > 0.0 && f.left_x < 0.0) high = 1.0;
-  if (f.right_x < 0.0 && f.left_x > 0.0) low = -1.0;
-  paint_rows(f, increments, first_centre(f.y + f.radius * low), first_centre(f.y + f.radius * high));
+  paint_rows(Fan(georeference_, pose, half_width_rad_, reach_m), increments,
+             std::isfinite(reading_m) ? increments.reading_m - reading_m : 0.0);
 }
 
 }  // namespace credo::mapping

@@ -11,6 +11,7 @@
 
 #include "grids/evidential_grid.hpp"
 #include "mapping/evidence_levels.hpp"
+#include "mapping/fan.hpp"
 #include "mapping/sonar_model.hpp"
 #include "mapping/tile_window.hpp"
 
@@ -51,21 +52,12 @@ class FanPainter {
     double reading_m = 0.0;  ///< that it was made for; distances are shifted so that a reading near to it fits
     std::vector<std::array<evidence::FixedLogCommonality, kAngleBins>> rows;
   };
-  /// A fan in cells.
-  struct Fan {
-    double x = 0.0, y = 0.0;            ///< apex
-    double axis_x = 0.0, axis_y = 0.0;  ///< unit vectors: the axis and the two edges, right and left
-    double right_x = 0.0, right_y = 0.0, left_x = 0.0, left_y = 0.0;
-    double radius = 0.0;
-    double shift_m = 0.0;  ///< added to distances before they are looked up
-  };
-
   FanPainter(Source source, const sensors::SonarRing& ring, const grids::Georeference& georeference);
   [[nodiscard]] const Table& table(double reading_m, int level);
   /// Makes room for another table: all are dropped where they would take too much memory, to be made again.
   void forget_tables_before(std::size_t bytes);
-  [[nodiscard]] Fan fan(const geometry::Pose2& T_map_transducer, double reach_m) const;
-  void paint_rows(const Fan& fan, const Table& table, int begin, int end);
+  /// \param shift_m  added to distances before they are looked up
+  void paint_rows(const Fan& fan, const Table& table, double shift_m);
 
   Source source_;
   grids::Georeference georeference_;

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include "geometry/pose.hpp"
+#include "grids/georeference.hpp"
+
+namespace credo::mapping {
+
+/// A row of cells [begin, end).
+struct CellRun {
+  int begin = 0;
+  int end = 0;
+};
+
+/// The cone of a transducer on a grid, in cells: from the apex at (x, y) to the arc of a radius, between two edges.
+class Fan {
+ public:
+  /// \param T_map_transducer  its x axis is the axis of the cone
+  /// \param half_width_rad    of the cone, below pi / 2
+  Fan(const grids::Georeference& georeference, const geometry::Pose2& T_map_transducer, double half_width_rad,
+      double reach_m);
+
+  [[nodiscard]] double x() const { return x_; }
+  [[nodiscard]] double y() const { return y_; }
+  [[nodiscard]] double axis_x() const { return axis_x_; }
+  [[nodiscard]] double axis_y() const { return axis_y_; }
+
+  /// The rows that the fan may touch.
+  [[nodiscard]] CellRun rows() const;
+  /// The cells of a row whose centres lie in the fan; begin >= end where none does.
+  [[nodiscard]] CellRun run(int row) const;
+
+ private:
+  double x_, y_;            // apex
+  double axis_x_, axis_y_;  // unit vectors: the axis and the two edges, right and left
+  double right_x_, right_y_, left_x_, left_y_;
+  double radius_;
+};
+
+}  // namespace credo::mapping
