@@ -44,6 +44,11 @@ struct Tile {
   return ((cell.y & (Tile::kSide - 1)) << Tile::kShift) | (cell.x & (Tile::kSide - 1));
 }
 
+/// The cell at a place of a tile's arrays.
+[[nodiscard]] constexpr CellIndex cell_of(TileIndex tile, int place) {
+  return {(tile.x << Tile::kShift) + (place & (Tile::kSide - 1)), (tile.y << Tile::kShift) + (place >> Tile::kShift)};
+}
+
 /// An evidential grid map: every cell is a product of commonalities, kept as a fixed-point logarithm. An update is
 /// three integer additions, so is a merge, and the sum is the same to the last bit whatever the order, the thread or
 /// the robot. The grid has no edge: tiles appear where there is evidence, and an absent tile is vacuous. A cell that

@@ -20,8 +20,8 @@ constexpr std::size_t kMostTableBytes = std::size_t{64} << 20;  // of the increm
 
 }  // namespace
 
-FanPainter::FanPainter(Source source, const sensors::SonarRing& ring, const grids::Georeference& georeference)
-    : source_(std::move(source)), georeference_(georeference), half_width_rad_(0.5 * ring.beam_width_rad) {
+FanPainter::FanPainter(AnySonarModel model, const sensors::SonarRing& ring, const grids::Georeference& georeference)
+    : model_(std::move(model)), georeference_(georeference), half_width_rad_(0.5 * ring.beam_width_rad) {
   if (!(ring.beam_width_rad > 0.0 && ring.beam_width_rad < std::numbers::pi))
     throw std::invalid_argument("sonar ring: beam_width must be between 0 and pi rad, not " +
                                 std::to_string(ring.beam_width_rad));
@@ -40,9 +40,10 @@ const FanPainter::Table& FanPainter::table(double reading_m, int level) {
   if (!table.rows.empty()) return table;
 
   const double reading = echo ? (static_cast<double>(bin) + 0.5) * reading_bin_m_ : reading_m;
-  const double reliability = reliability_of(level) * (echo ? source_.reliability : source_.no_echo_reliability);
+  const double reliability = reliability_of(level) * (echo ? model_.reliability() : model_.no_echo().reliability());
   const double widest = std::sin(half_width_rad_);
-  const std::size_t rows = static_cast<std::size_t>(source_.reach(reading) / rho_bin_m_) + 3;
+  const std::size_t rows =
+      static_cast<std::size_t>((echo ? model_.reach(reading) : model_.no_echo().reach()) / rho_bin_m_) + 3;
   forget_tables_before(rows * sizeof(table.rows.front()));
   table.reading_m = reading;
   table.rows.resize(rows);
@@ -50,7 +51,7 @@ const FanPainter::Table& FanPainter::table(double reading_m, int level) {
     const double rho = (static_cast<double>(row) + 0.5) * rho_bin_m_;
     for (int a = 0; a < kAngleBins; ++a) {
       const double theta = std::asin(std::sqrt((a + 0.5) / kAngleBins) * widest);
-      const evidence::GridMass mass = echo ? source_.mass(rho, theta, reading) : source_.no_echo_mass(rho, theta);
+      const evidence::GridMass mass = echo ? model_.mass(rho, theta, reading) : model_.no_echo().mass(rho, theta);
       table.rows[row][a] = evidence::fixed_increment(mass, reliability);
     }
   }
@@ -104,7 +105,7 @@ void FanPainter::paint_rows(const Fan& fan, const Table& table, double shift_m) 
 
 void FanPainter::paint(grids::EvidentialGrid& grid, const geometry::Pose2& pose, double reading_m, double reliability) {
   const int level = level_of(reliability);
-  const double reach_m = source_.reach(reading_m);
+  const double reach_m = std::isfinite(reading_m) ? model_.reach(reading_m) : model_.no_echo().reach();
   if (level == 0 || !(reach_m > 0.0)) return;
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach_m + 2.0 * georeference_.resolution_m);
   const grids::CellIndex least = georeference_.cell_at(pose.translation() - margin);

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "grids/evidential_grid.hpp"
@@ -24,13 +23,7 @@ class FanPainter {
   static constexpr int kAngleBins = 16;  ///< from the axis to the edge, of equal steps in the squared sine
 
   /// \throws std::invalid_argument if the resolution does not fit the ring.
-  template <SonarModel Model>
-  FanPainter(const Model& model, const sensors::SonarRing& ring, const grids::Georeference& georeference)
-      : FanPainter(Source{[model](double rho, double theta, double reading) { return model.mass(rho, theta, reading); },
-                          [model](double rho, double theta) { return model.no_echo_mass(rho, theta); },
-                          [model](double reading) { return model.reach(reading); }, model.reliability(),
-                          model.no_echo_reliability()},
-                   ring, georeference) {}
+  FanPainter(AnySonarModel model, const sensors::SonarRing& ring, const grids::Georeference& georeference);
 
   /// \param T_map_transducer  where it was when it fired; its x axis is the beam axis
   /// \param reading_m         at most the ring's range_max; inf: no echo
@@ -40,26 +33,18 @@ class FanPainter {
              double reliability);
 
  private:
-  struct Source {
-    std::function<evidence::GridMass(double rho, double theta, double reading)> mass;
-    std::function<evidence::GridMass(double rho, double theta)> no_echo_mass;
-    std::function<double(double reading)> reach;
-    double reliability = 0.0;
-    double no_echo_reliability = 0.0;
-  };
   /// Increments of one reading at one level, by distance (rows) and angle.
   struct Table {
     double reading_m = 0.0;  ///< that it was made for; distances are shifted so that a reading near to it fits
     std::vector<std::array<evidence::FixedLogCommonality, kAngleBins>> rows;
   };
-  FanPainter(Source source, const sensors::SonarRing& ring, const grids::Georeference& georeference);
   [[nodiscard]] const Table& table(double reading_m, int level);
   /// Makes room for another table: all are dropped where they would take too much memory, to be made again.
   void forget_tables_before(std::size_t bytes);
   /// \param shift_m  added to distances before they are looked up
   void paint_rows(const Fan& fan, const Table& table, double shift_m);
 
-  Source source_;
+  AnySonarModel model_;
   grids::Georeference georeference_;
   double half_width_rad_ = 0.0;
   double reading_bin_m_ = 0.0;  ///< steps of the tables

@@ -11,33 +11,20 @@
 #include "evidence/believed.hpp"
 #include "grids/evidential_grid.hpp"
 #include "mapping/laser_model.hpp"
+#include "mapping/placed_sweep.hpp"
 #include "mapping/pose_reliability.hpp"
 #include "mapping/scan_params.hpp"
-#include "mapping/sonar_model.hpp"
+#include "mapping/sonar_choice.hpp"
 #include "sensors/acquisition.hpp"
 
 namespace credo::mapping {
 
 struct MapperParams {
   grids::Georeference georeference;
-  Li2007Params sonar;
+  SonarParams sonar;
   Li2006LaserParams laser;
   ScanParams scan;
   PoseReliabilityParams pose;
-};
-
-/// What became of the readings.
-struct MappingCounts {
-  std::int64_t sweeps = 0;
-  std::int64_t scans = 0;
-  std::int64_t refused = 0;       ///< sweeps and scans whose pose is too unsure: nothing was mapped
-  std::int64_t echoes = 0;        ///< readings with a range
-  std::int64_t no_returns = 0;    ///< inf: weak evidence of free space
-  std::int64_t missing = 0;       ///< nan: evidence of nothing
-  std::int64_t out_of_range = 0;  ///< finite, but outside [range_min, range_max]: as nan
-
-  MappingCounts& operator+=(const MappingCounts& other);
-  friend bool operator==(const MappingCounts&, const MappingCounts&) = default;
 };
 
 /// Ranges from believed poses -> evidential grid (Li X. 2007, sec. 5; Li X. 2006, sec. 4). Only the cells of the fan or

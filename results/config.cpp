@@ -62,6 +62,8 @@ template <typename T>
 std::string flow(const T& value) {
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
     return scalar(value);
+  } else if constexpr (std::is_same_v<T, mapping::SonarParams>) {
+    return std::string(mapping::name_of(value));
   } else if constexpr (is_matrix<T>) {
     std::string text = "[";
     for (int i = 0; i < value.size(); ++i)
@@ -102,7 +104,15 @@ bool is_small(const T& value) {
 template <typename T>
 void emit(std::string& out, std::string_view name, const T& value, std::size_t depth) {
   const std::string indent(2 * depth, ' ');
-  if constexpr (fits_one_line<T>()) {
+  if constexpr (std::is_same_v<T, mapping::SonarParams>) {
+    out += fmt::format("{}{}:\n{}  model: {}\n", indent, name, indent, mapping::name_of(value));
+    std::visit(
+        [&](const auto& model) {
+          fields::for_each(
+              model, [&](std::string_view field_name, const auto& field) { emit(out, field_name, field, depth + 1); });
+        },
+        value);
+  } else if constexpr (fits_one_line<T>()) {
     out += fmt::format("{}{}: {}\n", indent, name, flow(value));
   } else if (depth > 1 && is_small(value)) {
     out += fmt::format("{}{}: {}\n", indent, name, flow(value));

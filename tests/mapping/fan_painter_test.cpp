@@ -14,7 +14,8 @@ TEST(MapperSonar, TouchesOnlyTheFanAndSaysWhatTheModelSays) {
   const sensors::SonarRing ring = one_sonar();
   MapperParams params;
   params.georeference.resolution_m = 0.04;
-  const Li2007 model(ring, params.sonar);
+  const Li2007Params sonar;
+  const Li2007 model(ring, sonar);
   for (const double heading : {0.0, 0.4, kPi / 2, 2.2, kPi, -1.9, -kPi / 2, -0.2}) {
     Mapper mapper(rig_with(ring), params);
     const Pose2 pose{3.21, -4.57, heading};
@@ -36,7 +37,7 @@ TEST(MapperSonar, TouchesOnlyTheFanAndSaysWhatTheModelSays) {
         }
         const auto expected = evidence::log_commonality(model.mass(rho, theta, sweep.ranges_m[0]), model.reliability());
         // The model jumps where eqs. (5) to (8) begin and end; a table cannot say on which side a cell is.
-        const double past = rho - sweep.ranges_m[0], eps = params.sonar.epsilon_m;
+        const double past = rho - sweep.ranges_m[0], eps = sonar.epsilon_m;
         const bool at_jump =
             std::abs(past - eps) < 0.02 || std::abs(past - 2.0 * eps) < 0.02 || std::abs(rho - ring.range_min_m) < 0.02;
         if (at_jump) continue;

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "grids/mass_map.hpp"
+#include "mapping/cell_rules.hpp"
+#include "mapping/fan.hpp"
+#include "mapping/mapper.hpp"
+#include "mapping/scan_painter.hpp"
+
+namespace credo::mapping {
+
+/// The same readings as `Mapper` into cells of any rule, one after the other. Slower: each cell asks the sensor model
+/// itself, so that masses without ignorance stay what they are.
+template <CellRule Rule>
+class SequentialMapper {
+ public:
+  using Cell = typename Rule::Cell;
+
+  /// \throws std::invalid_argument as Mapper.
+  SequentialMapper(const sensors::Rig& rig, const MapperParams& params, Rule rule = {})
+      : rig_(rig), params_(params), rule_(std::move(rule)), grid_(params.georeference) {
+    for (const sensors::SonarRing& ring : rig.sonar_rings) sonars_.push_back(sonar_model(ring, params.sonar));
+    const Li2006Laser laser(params.laser);
+    for (const sensors::RangeFinder& finder : rig.range_finders)
+      scans_.emplace_back(finder, params.georeference, laser_tables(laser, finder, params.scan), params.scan);
+  }
+
+  /// \throws as Mapper::insert
+  void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::SonarSweep& sweep,
+              const sensors::MotionPath& path = {}) {
+    place_sweep(rig_, params_.georeference, params_.pose, T_map_base, sweep, path, counts_, placed_);
+    for (const PlacedReading& reading : placed_)
+      spread(rig_.sonar_rings[static_cast<std::size_t>(sweep.sensor)], sonars_[static_cast<std::size_t>(sweep.sensor)],
+             reading);
+  }
+
+  /// A scan's evidence is that of `Mapper` on an empty map: each cell takes it in once.
+  void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::RangeScan& scan,
+              const sensors::MotionPath& path = {}) {
+    const auto& finders = rig_.range_finders;
+    const bool there = scan.sensor >= 0 && static_cast<std::size_t>(scan.sensor) < finders.size();
+    require_sensor(finders.size(), scan.sensor, scan.ranges_m.size(),
+                   there ? static_cast<std::size_t>(finders[static_cast<std::size_t>(scan.sensor)].count) : 0,
+                   "range finder");
+    const PoseReliability reliability(T_map_base, params_.georeference.resolution_m, params_.pose);
+    ++counts_.scans;
+    if (reliability.maps_nothing()) {
+      ++counts_.refused;
+      return;
+    }
+    grids::EvidentialGrid one(params_.georeference);
+    const ScanPainter::Counts counts = scans_[static_cast<std::size_t>(scan.sensor)].paint(
+        one, T_map_base.value.pose, reliability, scan.ranges_m, path, scan.time);
+    counts_.echoes += counts.echoes;
+    counts_.no_returns += counts.no_returns;
+    counts_.missing += counts.missing;
+    counts_.out_of_range += counts.out_of_range;
+    fold(one);
+  }
+
+  [[nodiscard]] const grids::CellGrid<Cell>& grid() const { return grid_; }
+  [[nodiscard]] const MappingCounts& counts() const { return counts_; }
+  /// Readings of a cell that the rule abandoned.
+  [[nodiscard]] std::int64_t abandoned() const { return abandoned_; }
+  [[nodiscard]] grids::MassMap masses() const {
+    return grids::mass_map(grid_, [&](const Cell& cell) { return rule_.masses(cell); });
+  }
+
+ private:
+  void take_in(grids::CellIndex cell, const evidence::GridMass& mass) {
+    if (mass == evidence::GridMass::vacuous()) return;
+    abandoned_ += rule_.update(grid_.see(cell), mass) ? 0 : 1;
+  }
+
+  void spread(const sensors::SonarRing& ring, const AnySonarModel& model, const PlacedReading& reading) {
+    const bool echo = std::isfinite(reading.range_m);
+    const double reach_m = echo ? model.reach(reading.range_m) : model.no_echo().reach();
+    const double reliability = reading.reliability * (echo ? model.reliability() : model.no_echo().reliability());
+    if (!(reach_m > 0.0 && reliability > 0.0)) return;
+    const Fan fan(params_.georeference, reading.T_map_transducer, 0.5 * ring.beam_width_rad, reach_m);
+    const geometry::Pose2 T_transducer_map = reading.T_map_transducer.inverse();
+    const CellRun rows = fan.rows();
+    for (int row = rows.begin; row < rows.end; ++row) {
+      const CellRun run = fan.run(row);
+      for (int column = run.begin; column < run.end; ++column) {
+        const grids::CellIndex cell{column, row};
+        const Eigen::Vector2d there = T_transducer_map * params_.georeference.centre(cell);
+        const double rho_m = there.norm(), theta_rad = std::atan2(there.y(), there.x());
+        const evidence::GridMass mass =
+            echo ? model.mass(rho_m, theta_rad, reading.range_m) : model.no_echo().mass(rho_m, theta_rad);
+        take_in(cell, evidence::discount(mass, reliability));
+      }
+    }
+  }
+
+  void fold(const grids::EvidentialGrid& one) {
+    for (const auto& [index, tile] : one.tiles())
+      for (int place = 0; place < grids::Tile::kCells; ++place) {
+        const evidence::FixedLogCommonality cell{tile.empty[place], tile.occupied[place], tile.unknown[place]};
+        if (cell == evidence::FixedLogCommonality{}) continue;
+        take_in(grids::cell_of(index, place), evidence::masses(cell.value()));
+      }
+  }
+
+  sensors::Rig rig_;
+  MapperParams params_;
+  Rule rule_;
+  grids::CellGrid<Cell> grid_;
+  std::vector<AnySonarModel> sonars_;  // one for each ring
+  std::vector<ScanPainter> scans_;     // one for each range finder
+  std::vector<PlacedReading> placed_;  // of the sweep at hand
+  MappingCounts counts_;
+  std::int64_t abandoned_ = 0;
+};
+
+}  // namespace credo::mapping
