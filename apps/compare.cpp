@@ -24,10 +24,12 @@ void add_compare(CLI::App& app) {
   compare->footer(
       "  credo compare localizers datasets/office datasets/hall    Credo beside Kalman and particle filters and ICP\n"
       "  credo compare association datasets/office                 who is who: Credo beside nearest neighbour and "
-      "JPDA");
+      "JPDA\n"
+      "  credo compare maps datasets/office                       sensor models and rules of the map");
   compare->require_subcommand(1);
   add_compare_localizers(*compare);
   add_compare_association(*compare);
+  add_compare_maps(*compare);
 }
 
 }  // namespace credo::apps

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <vector>
+
+#include "geometry/pose.hpp"
 
 namespace credo::evaluation {
 namespace {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "datasets/map_server.hpp"
 #include "grids/mass_map.hpp"

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "apps/about.hpp"
+#include "apps/compare.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/map_source.hpp"
+#include "apps/option_checks.hpp"
+#include "apps/output.hpp"
+#include "apps/picture_folder.hpp"
+#include "apps/terminal.hpp"
+#include "datasets/map_server.hpp"
+#include "datasets/staged_folder.hpp"
+#include "evaluation/map_score.hpp"
+#include "mapping/map_rule.hpp"
+#include "results/map_sheet.hpp"
+#include "results/pictures.hpp"
+#include "results/results_folder.hpp"
+
+namespace credo::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+struct MapsOptions {
+  MapSource from{.source = {}, .poses = {}, .sensors = {"sonar"}};
+  std::string out, pictures;
+  std::vector<std::string> models, rules;
+  bool printed = false;
+  mapping::TrajectoryMappingParams params;
+  OutputFormat format;
+};
+
+/// One line of the table.
+struct Line {
+  std::string model, rule;
+  mapping::RuleMap map;
+  evaluation::MapScore score;
+  double milliseconds = 0.0;
+};
+
+std::vector<std::string> all_models() {
+  const auto names = mapping::sonar_model_names();
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> all_rules() {
+  std::vector<std::string> names;
+  for (const mapping::NamedRule& rule : mapping::map_rules()) names.emplace_back(rule.name);
+  return names;
+}
+
+/// The formulas as printed, where the model has them.
+void take_printed(mapping::SonarParams& params) {
+  std::visit(
+      [](auto& p) {
+        if constexpr (requires { p.variant; }) p.variant = mapping::Variant::kPrinted;
+      },
+      params);
+}
+
+Line map_with(const MapPart& part, const MapsOptions& o, const std::string& model, const std::string& rule,
+              const datasets::OccupancyMap& truth) {
+  mapping::TrajectoryMappingParams params = o.params;
+  params.mapper.sonar = mapping::sonar_params(model, params.mapper.georeference.resolution_m);
+  if (o.printed) take_printed(params.mapper.sonar);
+  const auto begin = std::chrono::steady_clock::now();
+  mapping::RuleMap map = mapping::map_along(part.path, part.rig, part.scans, part.sweeps, params,
+                                            mapping::map_rule(rule).rule, [](double) { Interruptible::check(); });
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  const evaluation::MapScore score = evaluation::map_score(map.map, truth);
+  return {model, rule, std::move(map), score, took.count()};
+}
+
+datasets::OccupancyMap true_map(const std::string& source) {
+  const fs::path file = fs::path(source) / "truth_map.yaml";
+  if (!fs::exists(file))
+    throw std::runtime_error(source +
+                             ": has no truth_map.yaml, which maps are compared with: expected a dataset of "
+                             "credo simulate, or another one with its true map");
+  return datasets::read_map(file);
+}
+
+std::string text_of(const std::vector<Line>& lines) {
+  std::string text = fmt::format("{:<8} {:<14} {:>8} {:>9} {:>9} {:>7} {:>9} {:>9} {:>10} {:>11} {:>10} {:>9}\n",
+                                 "model", "rule", "decided", "of those", "accuracy", "Brier", "log loss", "conflict",
+                                 "ignorance", "contour cm", "missed cm", "time ms");
+  for (const Line& l : lines)
+    text += fmt::format(
+        "{:<8} {:<14} {:>7.2f}% {:>8.2f}% {:>8.2f}% {:>7.4f} {:>9.4f} {:>9.4f} {:>10.4f} {:>11.1f} "
+        "{:>10.1f} {:>9.1f}\n",
+        l.model, l.rule, 100.0 * l.score.decided_share(), 100.0 * l.score.accuracy_of_decided(),
+        100.0 * l.score.accuracy(), l.score.brier, l.score.log_loss, l.score.conflict, l.score.ignorance,
+        100.0 * l.score.contour_m, 100.0 * l.score.missed_m, l.milliseconds);
+  return text;
+}
+
+constexpr const char* kTerms =
+    "\nCells that were seen and whose truth is known count, but for those more than one cell inside of a solid. "
+    "decided:\n"
+    "m(occupied) and m(empty) differ; of those: right, a wall within one cell; accuracy: of all, undecided is wrong.\n"
+    "Brier, log loss: of the pignistic probability of occupied. contour: from what is said to be occupied to the "
+    "nearest\n"
+    "true wall, at most 50 cm; missed: from true walls to what is said to be occupied.\n";
+
+ordered_json json_of(const Line& l) {
+  return {{"model", l.model},
+          {"rule", l.rule},
+          {"cells", l.score.cells},
+          {"decided", l.score.decided_share()},
+          {"accuracy_of_decided", l.score.accuracy_of_decided()},
+          {"accuracy", l.score.accuracy()},
+          {"brier", l.score.brier},
+          {"log_loss", l.score.log_loss},
+          {"conflict", l.score.conflict},
+          {"ignorance", l.score.ignorance},
+          {"contour_m", number_or_null(l.score.contour_m)},
+          {"missed_m", number_or_null(l.score.missed_m)},
+          {"abandoned", l.map.abandoned},
+          {"ms", l.milliseconds}};
+}
+
+std::string csv_of(const std::vector<Line>& lines) {
+  std::string csv =
+      "#model,rule,cells,decided,accuracy_of_decided,accuracy,brier,log_loss,conflict,ignorance,contour [m],missed [m],"
+      "abandoned,time [ms]\n";
+  for (const Line& l : lines)
+    csv += fmt::format("{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{},{:.3f}\n", l.model,
+                       l.rule, l.score.cells, l.score.decided_share(), l.score.accuracy_of_decided(),
+                       l.score.accuracy(), l.score.brier, l.score.log_loss, l.score.conflict, l.score.ignorance,
+                       l.score.contour_m, l.score.missed_m, l.map.abandoned, l.milliseconds);
+  return csv;
+}
+
+void draw(const fs::path& file, const std::vector<Line>& lines) {
+  std::vector<results::SheetMap> maps;
+  for (const Line& l : lines)
+    maps.push_back({l.model + " " + l.rule, fmt::format("accuracy {:.2f} %", 100.0 * l.score.accuracy()), &l.map.map});
+  results::write_png(file, results::map_sheet(maps));
+}
+
+void execute(MapsOptions& o) {
+  const Interruptible interruptible;
+  const datasets::OccupancyMap truth = true_map(o.from.source);
+  const MapParts read = read_map_parts(o.from);
+  const MapPart& part = read.parts.front();
+  if (part.scans.empty() && part.sweeps.empty()) fail_without_readings(o.from);
+  std::optional<datasets::StagedFolder> pictures;
+  if (!o.pictures.empty()) pictures.emplace(o.pictures, refuse_older_pictures);
+  if (part.sweeps.empty()) o.models = {o.models.front()};  // nothing depends on it
+  std::vector<Line> lines;
+  Progress progress("mapping");
+  for (const std::string& model : o.models)
+    for (const std::string& rule : o.rules) {
+      lines.push_back(about(o.from.source, [&] { return map_with(part, o, model, rule, truth); }));
+      if (part.sweeps.empty()) lines.back().model = "laser";
+      progress.update(static_cast<double>(lines.size()) / static_cast<double>(o.models.size() * o.rules.size()));
+    }
+  if (pictures) draw(pictures->path() / "maps.png", lines);
+  if (!o.out.empty()) results::write_text(o.out, csv_of(lines));
+  if (pictures) pictures->commit();
+  if (o.format.json()) {
+    ordered_json all = ordered_json::array();
+    for (const Line& line : lines) all.push_back(json_of(line));
+    print({{"dataset", o.from.source}, {"poses", read.poses}, {"maps", all}});
+    return;
+  }
+  std::printf("%s, mapped with %s\n%s%s", o.from.source.c_str(), read.poses.c_str(), text_of(lines).c_str(), kTerms);
+}
+
+}  // namespace
+
+void add_compare_maps(CLI::App& compare) {
+  CLI::App* command =
+      compare.add_subcommand("maps", "Every sensor model and rule on the same readings, against the true map.");
+  command->footer(
+      "  credo compare maps datasets/room                                     sonar: all models and rules\n"
+      "  credo compare maps datasets/office --sensors range --pictures sheet  laser: all rules\n"
+      "  credo compare maps datasets/room --models li2007,zhu --rules dempster,pcr2 --out table.csv");
+  auto o = std::make_shared<MapsOptions>();
+  o->models = all_models();
+  o->rules = all_rules();
+  add_map_source_options(*command, o->from);
+  command->add_option("--models", o->models, "of the sonar")
+      ->delimiter(',')
+      ->check(CLI::IsMember(all_models()))
+      ->capture_default_str();
+  command->add_option("--rules", o->rules, "of the cells")
+      ->delimiter(',')
+      ->check(CLI::IsMember(all_rules()))
+      ->capture_default_str();
+  command->add_flag("--printed", o->printed, "the sonar models' formulas as printed instead of as resolved");
+  command->add_option("--resolution", o->params.mapper.georeference.resolution_m, "side of a cell [m]")
+      ->check(any_resolution())
+      ->capture_default_str();
+  command->add_option("-o,--out", o->out, "file for the table as comma-separated values")->check(a_path());
+  command->add_option("--pictures", o->pictures, "a new folder for maps.png, all maps side by side")->check(a_path());
+  add_format_option(*command, o->format);
+  command->callback([o] { execute(*o); });
+}
+
+}  // namespace credo::apps

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "mapping/mapper.hpp"
+
+// What is mapped by `credo map` and `credo compare maps`: readings, and the poses that they were taken from.
+namespace credo::apps {
+
+struct MapSource {
+  std::string source, poses;
+  std::vector<std::string> sensors{"range", "sonar"};
+};
+
+/// Readings with the poses to map them from.
+struct MapPart {
+  sensors::MotionPath path;
+  sensors::Rig rig;
+  std::vector<sensors::RangeScan> scans;
+  std::vector<sensors::SonarSweep> sweeps;
+};
+
+struct MapParts {
+  std::vector<MapPart> parts;
+  std::string poses;  ///< where they are from, in words
+};
+
+void add_map_source_options(CLI::App& command, MapSource& source);
+
+/// \throws std::runtime_error if the source is neither a dataset nor a CARMEN log, cannot be read, or has no poses
+[[nodiscard]] MapParts read_map_parts(const MapSource& source);
+[[noreturn]] void fail_without_readings(const MapSource& source);
+
+}  // namespace credo::apps
