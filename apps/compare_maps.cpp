@@ -37,7 +37,7 @@ struct MapsOptions {
   MapSource from{.source = {}, .poses = {}, .sensors = {"sonar"}};
   std::string out, pictures;
   std::vector<std::string> models, rules;
-  bool printed = false;
+  SonarChoice sonar;  ///< but for the model
   mapping::TrajectoryMappingParams params;
   OutputFormat format;
 };
@@ -61,20 +61,12 @@ std::vector<std::string> all_rules() {
   return names;
 }
 
-/// The formulas as printed, where the model has them.
-void take_printed(mapping::SonarParams& params) {
-  std::visit(
-      [](auto& p) {
-        if constexpr (requires { p.variant; }) p.variant = mapping::Variant::kPrinted;
-      },
-      params);
-}
-
 Line map_with(const MapPart& part, const MapsOptions& o, const std::string& model, const std::string& rule,
               const datasets::OccupancyMap& truth) {
   mapping::TrajectoryMappingParams params = o.params;
-  params.mapper.sonar = mapping::sonar_params(model, params.mapper.georeference.resolution_m);
-  if (o.printed) take_printed(params.mapper.sonar);
+  SonarChoice sonar = o.sonar;
+  sonar.model = model;
+  params.mapper.sonar = sonar_params(sonar, params.mapper.georeference.resolution_m);
   const auto begin = std::chrono::steady_clock::now();
   mapping::RuleMap map = mapping::map_along(part.path, part.rig, part.scans, part.sweeps, params,
                                             mapping::map_rule(rule).rule, [](double) { Interruptible::check(); });
@@ -200,7 +192,8 @@ void add_compare_maps(CLI::App& compare) {
       ->delimiter(',')
       ->check(CLI::IsMember(all_rules()))
       ->capture_default_str();
-  command->add_flag("--printed", o->printed, "the sonar models' formulas as printed instead of as resolved");
+  add_printed_option(*command, o->sonar);
+  add_sonar_weights_option(*command, o->sonar);
   command->add_option("--resolution", o->params.mapper.georeference.resolution_m, "side of a cell [m]")
       ->check(any_resolution())
       ->capture_default_str();

@@ -35,6 +35,7 @@ namespace fs = std::filesystem;
 
 struct MapOptions {
   MapSource from;
+  SonarChoice sonar;
   std::string out, pictures;
   std::string readout = "normalized";
   bool force = false;
@@ -114,6 +115,7 @@ void execute(MapOptions o) {
   const auto [parts, poses] = read_map_parts(o.from);
   if (o.out.empty())
     o.out = (fs::path("results") / (fs::path(o.from.source).lexically_normal().stem().string() + "_map")).string();
+  o.params.mapper.sonar = sonar_params(o.sonar, o.params.mapper.georeference.resolution_m);
   const Interruptible interruptible;
   datasets::StagedFolder folder = results::stage_results(o.out, o.force);
   std::optional<PictureFolder> pictures;
@@ -156,6 +158,12 @@ void add_map(CLI::App& app) {
       "  credo map intel.log.gz --out results/intel --resolution 0.1 --pictures results/intel_pictures");
   auto o = std::make_shared<MapOptions>();
   add_map_source_options(*command, o->from);
+  const auto models = mapping::sonar_model_names();
+  command->add_option("--model", o->sonar.model, "of the sonar")
+      ->check(CLI::IsMember(std::vector<std::string>(models.begin(), models.end())))
+      ->capture_default_str();
+  add_printed_option(*command, o->sonar);
+  add_sonar_weights_option(*command, o->sonar);
   command->add_option("-o,--out", o->out, "folder for the map; default results/NAME_map")->check(a_path());
   command->add_option("--resolution", o->params.mapper.georeference.resolution_m, "side of a cell [m]")
       ->check(any_resolution())

@@ -11,6 +11,7 @@
 #include "apps/terminal.hpp"
 #include "datasets/carmen.hpp"
 #include "datasets/dataset.hpp"
+#include "datasets/sonar_weights_file.hpp"
 #include "datasets/trajectory.hpp"
 
 namespace credo::apps {
@@ -124,6 +125,29 @@ MapParts read_map_parts(const MapSource& o) {
     throw std::runtime_error(o.source + (fs::exists(o.source) ? "" : ": is not there") +
                              ": expected a dataset folder (with a dataset.yaml) or a CARMEN log");
   return read;
+}
+
+void add_sonar_weights_option(CLI::App& command, SonarChoice& choice) {
+  command.add_option("--sonar-weights", choice.weights, "of the model 'calibrated': a file of credo calibrate sonar")
+      ->check(a_path());
+}
+
+void add_printed_option(CLI::App& command, SonarChoice& choice) {
+  command.add_flag("--printed", choice.printed, "the sonar model's formulas as printed instead of as resolved");
+}
+
+mapping::SonarParams sonar_params(const SonarChoice& choice, double resolution_m) {
+  mapping::SonarParams params = mapping::sonar_params(choice.model, resolution_m);
+  std::visit(
+      [&](auto& p) {
+        if constexpr (requires { p.variant; })
+          p.variant = choice.printed ? mapping::Variant::kPrinted : mapping::Variant::kResolved;
+        if constexpr (requires { p.weights; })
+          if (!choice.weights.empty())
+            p.weights = datasets::read_sonar_weights(choice.weights, mapping::SonarKnots::kCount);
+      },
+      params);
+  return params;
 }
 
 void add_map_source_options(CLI::App& command, MapSource& source) {

@@ -30,6 +30,18 @@ struct MapParts {
   std::string poses;  ///< where they are from, in words
 };
 
+/// Which sonar model, by its name, and the weights of a calibrated one.
+struct SonarChoice {
+  std::string model = "li2007";
+  std::string weights;  ///< file; empty: the default ones
+  bool printed = false;
+};
+
+void add_sonar_weights_option(CLI::App& command, SonarChoice& choice);
+void add_printed_option(CLI::App& command, SonarChoice& choice);
+/// \throws std::runtime_error if the file of weights cannot be read
+[[nodiscard]] mapping::SonarParams sonar_params(const SonarChoice& choice, double resolution_m);
+
 void add_map_source_options(CLI::App& command, MapSource& source);
 
 /// \throws std::runtime_error if the source is neither a dataset nor a CARMEN log, cannot be read, or has no poses

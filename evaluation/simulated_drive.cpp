@@ -58,6 +58,24 @@ datasets::Dataset readings_of(const sim::Simulation& simulation) {
   return drive;
 }
 
+datasets::OccupancyMap true_map_of(const sim::Simulation& simulation) {
+  using Cell = sim::TruthMap::Cell;
+  using datasets::OccupancyMap;
+  const sim::TruthMap truth = simulation.truth_map();
+  OccupancyMap map{.width = truth.width,
+                   .height = truth.height,
+                   .resolution_m = truth.resolution_m,
+                   .origin_x_m = truth.origin.x(),
+                   .origin_y_m = truth.origin.y(),
+                   .cells = {}};
+  map.cells.reserve(truth.cells.size());
+  for (const Cell cell : truth.cells)
+    map.cells.push_back(cell == Cell::kOccupied ? OccupancyMap::kOccupied
+                        : cell == Cell::kFree   ? OccupancyMap::kFree
+                                                : OccupancyMap::kUnknown);
+  return map;
+}
+
 void for_each_acquisition(const sim::Simulation& simulation, const datasets::Dataset& readings,
                           const std::function<void(sensors::Acquisition)>& take, const PlayParams& params) {
   if (readings.header.rig.camera) {

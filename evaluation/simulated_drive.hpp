@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "datasets/dataset.hpp"
+#include "datasets/map_server.hpp"
 #include "sensors/acquisition.hpp"
 #include "sim/simulation.hpp"
 
@@ -18,6 +19,9 @@ namespace credo::evaluation {
 /// All readings but the images, with truth and events: the dataset that the simulation would be written into, without
 /// the rounding of its files, and with no image.
 [[nodiscard]] datasets::Dataset readings_of(const sim::Simulation& simulation);
+
+/// Where the walls of a simulated building are.
+[[nodiscard]] datasets::OccupancyMap true_map_of(const sim::Simulation& simulation);
 
 struct PlayParams {
   int threads = 1;                            ///< for rendering images

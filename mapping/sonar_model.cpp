@@ -26,24 +26,19 @@ void check_ring(const sensors::SonarRing& ring) {
 }
 
 NoEcho::NoEcho(const sensors::SonarRing& ring, const NoEchoParams& params)
-    : beam_width_rad_(ring.beam_width_rad),
-      range_min_m_(ring.range_min_m),
-      range_max_m_(ring.range_max_m),
-      params_(params) {
+    : mass_([ring, params](double rho_m, double theta_rad) {
+        if (std::abs(theta_rad) > 0.5 * ring.beam_width_rad || rho_m < ring.range_min_m || rho_m > params.range_m)
+          return GridMass::vacuous();
+        const double share = rho_m / ring.range_max_m;
+        const double empty =
+            share < 1.0 ? (1.0 - share * share) * (1.0 - 0.5 * beam_weight(theta_rad, ring.beam_width_rad)) : 0.0;
+        return GridMass{.empty = empty, .occupied = 0.0, .conflict = 0.0, .unknown = 1.0 - empty};
+      }),
+      reliability_(params.reliability),
+      reach_m_(std::min(params.range_m, ring.range_max_m)) {
   const ParameterCheck check("sonar model: no_echo.");
   check.share("reliability", params.reliability);
   check.not_negative("range_m", params.range_m);
 }
-
-GridMass NoEcho::mass(double rho_m, double theta_rad) const {
-  if (std::abs(theta_rad) > 0.5 * beam_width_rad_ || rho_m < range_min_m_ || rho_m > params_.range_m)
-    return GridMass::vacuous();
-  const double share = rho_m / range_max_m_;
-  const double empty =
-      share < 1.0 ? (1.0 - share * share) * (1.0 - 0.5 * beam_weight(theta_rad, beam_width_rad_)) : 0.0;
-  return {.empty = empty, .occupied = 0.0, .conflict = 0.0, .unknown = 1.0 - empty};
-}
-
-double NoEcho::reach() const { return std::min(params_.range_m, range_max_m_); }
 
 }  // namespace credo::mapping

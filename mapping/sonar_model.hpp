@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <functional>
+#include <utility>
 
 #include "evidence/grid_mass.hpp"
 #include "evidence/parameter_check.hpp"
@@ -25,19 +26,23 @@ struct NoEchoParams {
   double range_m = 2.0;       ///< and up to here only, or the ring's range_max where that is nearer
 };
 
-/// No echo is taken as an echo from beyond the range: free space as of Li X. 2007, eq. (5), with R - 2 eps = range_max.
+/// What a transducer says where nothing came back.
 class NoEcho {
  public:
+  /// Taken as an echo from beyond the range: free space as of Li X. 2007, eq. (5), with R - 2 eps = range_max.
   /// \throws std::invalid_argument if a parameter is out of its range.
   NoEcho(const sensors::SonarRing& ring, const NoEchoParams& params);
+  /// \param mass  of a cell at rho_m, theta_rad. \param reach_m  vacuous beyond
+  NoEcho(std::function<evidence::GridMass(double rho_m, double theta_rad)> mass, double reliability, double reach_m)
+      : mass_(std::move(mass)), reliability_(reliability), reach_m_(reach_m) {}
 
-  [[nodiscard]] evidence::GridMass mass(double rho_m, double theta_rad) const;
-  [[nodiscard]] double reliability() const { return params_.reliability; }
-  [[nodiscard]] double reach() const;
+  [[nodiscard]] evidence::GridMass mass(double rho_m, double theta_rad) const { return mass_(rho_m, theta_rad); }
+  [[nodiscard]] double reliability() const { return reliability_; }
+  [[nodiscard]] double reach() const { return reach_m_; }
 
  private:
-  double beam_width_rad_, range_min_m_, range_max_m_;
-  NoEchoParams params_;
+  std::function<evidence::GridMass(double, double)> mass_;
+  double reliability_, reach_m_;
 };
 
 /// Checks what all models need of a ring. \throws std::invalid_argument if the beam is not between 0 and pi wide, or

@@ -61,4 +61,36 @@ TEST_F(CompareCommand, WhatCannotBeComparedSaysWhatItLacks) {
   }
 }
 
+TEST_F(CompareCommand, MapsAreComparedOnTheSameReadings) {
+  ASSERT_EQ(credo("simulate demo --out data").status, 0);
+  const Answer text =
+      credo("compare maps data --models li2007,calibrated --rules dempster,pcr2 --out t.csv --pictures p");
+  EXPECT_EQ(text.status, 0) << text.error;
+  EXPECT_THAT(text.out,
+              AllOf(HasSubstr("li2007"), HasSubstr("calibrated"), HasSubstr("pcr2"), HasSubstr("accuracy: of all")));
+  EXPECT_TRUE(fs::exists(folder_ / "p" / "maps.png"));
+  EXPECT_THAT(read("t.csv"), AllOf(StartsWith("#model,rule,cells"), HasSubstr("\ncalibrated,pcr2,")));
+  const json maps =
+      json::parse(credo("compare maps data --sensors range --rules dempster,dsmc --format json").out)["maps"];
+  ASSERT_EQ(maps.size(), 2u);
+  EXPECT_EQ(maps[0]["model"], "laser");
+  EXPECT_EQ(maps[0]["accuracy"], maps[1]["accuracy"]);  // of the same sum
+  EXPECT_GT(maps[0]["accuracy"], 0.95);
+  fs::remove(folder_ / "data" / "truth_map.yaml");
+  EXPECT_THAT(credo("compare maps data").error, HasSubstr("data: has no truth_map.yaml"));
+  EXPECT_EQ(credo("compare maps data --rules pcr7").status, 2);
+}
+
+TEST_F(CompareCommand, ASonarLearnsFromADriveWhoseTruthIsKnown) {
+  ASSERT_EQ(credo("simulate demo --out data").status, 0);
+  ASSERT_EQ(credo("calibrate sonar data --out weights.yaml").status, 0);
+  EXPECT_THAT(read("weights.yaml"), HasSubstr("of 1 datasets"));
+  EXPECT_EQ(credo("map data --sensors sonar --model calibrated --sonar-weights weights.yaml --out map").status, 0);
+  EXPECT_THAT(read("map/config.yaml"), HasSubstr("model: calibrated"));
+  write("weights.yaml", "format: credo-sonar-weights/1\nweights: [1, 2]\n");
+  EXPECT_THAT(credo("map data --model calibrated --sonar-weights weights.yaml --out m2").error,
+              HasSubstr("weights.yaml:2"));
+  EXPECT_THAT(credo("calibrate sonar --out none.yaml").error, HasSubstr("nothing to learn from"));
+}
+
 }  // namespace

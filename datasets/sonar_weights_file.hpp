@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace credo::datasets {
+
+/// Reads the weights of a calibrated sonar model (docs/dataset-format.md).
+/// \param count  that the model has
+/// \throws FormatError with file and line: another number of weights, one that is not finite, an unknown key
+[[nodiscard]] std::vector<double> read_sonar_weights(const std::filesystem::path& file, std::size_t count);
+
+/// Writes them, by way of a temporary file beside it. \param source  where they are from, in one line
+/// \throws std::runtime_error if the file cannot be written
+void write_sonar_weights(const std::filesystem::path& file, std::span<const double> weights, const std::string& source);
+
+}  // namespace credo::datasets

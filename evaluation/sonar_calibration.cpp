@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "evaluation/sonar_calibration.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <stdexcept>
+
+#include "evaluation/map_score.hpp"
+#include "evaluation/simulated_drive.hpp"
+#include "evidence/parameter_check.hpp"
+#include "mapping/fan.hpp"
+#include "mapping/sonar_calibrated.hpp"
+#include "sim/presets.hpp"
+#include "sim/random_world.hpp"
+
+namespace credo::evaluation {
+namespace {
+
+using grids::CellBox;
+using grids::CellIndex;
+using mapping::SonarKnots;
+using State = TrueCells::State;
+
+/// All of a true map, turned or not.
+CellBox box_of(const datasets::OccupancyMap& truth, const grids::Georeference& georeference) {
+  const geometry::Pose2 T_map_truth{truth.origin_x_m, truth.origin_y_m, truth.origin_yaw_rad};
+  CellBox box;
+  for (const int x : {0, truth.width})
+    for (const int y : {0, truth.height})
+      box = box.united(
+          {georeference.cell_at(T_map_truth * Eigen::Vector2d(truth.resolution_m * x, truth.resolution_m * y)), 1, 1});
+  return box;
+}
+
+/// Which cells of a drive are learned from, and how often each weight counts in them.
+class Counts {
+ public:
+  Counts(const datasets::OccupancyMap& truth, const grids::Georeference& georeference, int empty_stride)
+      : georeference_(georeference),
+        truth_(truth, georeference, box_of(truth, georeference)),
+        rows_(static_cast<std::size_t>(truth_.box().width) * static_cast<std::size_t>(truth_.box().height), -1) {
+    int empty = 0;
+    const CellBox& box = truth_.box();
+    for (int y = box.min.y; y < box.min.y + box.height; ++y)
+      for (int x = box.min.x; x < box.min.x + box.width; ++x) {
+        const CellIndex cell{x, y};
+        const bool wall = truth_.at(cell) == State::kOccupied && truth_.near(cell, State::kEmpty, 1);
+        const bool open =
+            truth_.at(cell) == State::kEmpty && !truth_.near(cell, State::kOccupied, 1) && empty++ % empty_stride == 0;
+        if (!wall && !open) continue;
+        rows_[place(cell)] = static_cast<int>(occupied_.size());
+        occupied_.push_back(wall);
+      }
+    counts_.assign(occupied_.size() * SonarKnots::kCount, 0.0F);
+  }
+
+  void take_in(const mapping::PlacedReading& reading, const sensors::SonarRing& ring) {
+    const bool echo = std::isfinite(reading.range_m);
+    const double half_width_rad = 0.5 * ring.beam_width_rad;
+    const double reach_m = echo ? reading.range_m + SonarKnots::kPast.back() : ring.range_max_m;
+    const mapping::Fan fan(georeference_, reading.T_map_transducer, half_width_rad, reach_m);
+    const geometry::Pose2 T_transducer_map = reading.T_map_transducer.inverse();
+    const mapping::CellRun rows = fan.rows();
+    for (int row = rows.begin; row < rows.end; ++row) {
+      const mapping::CellRun run = fan.run(row);
+      for (int column = run.begin; column < run.end; ++column) {
+        const CellIndex cell{column, row};
+        if (!truth_.box().contains(cell) || rows_[place(cell)] < 0) continue;
+        float* counts = &counts_[static_cast<std::size_t>(rows_[place(cell)]) * SonarKnots::kCount];
+        const Eigen::Vector2d there = T_transducer_map * georeference_.centre(cell);
+        const double rho_m = there.norm(), off_axis = std::abs(std::atan2(there.y(), there.x())) / half_width_rad;
+        const auto count = [&](std::size_t i, double share) { counts[i] += static_cast<float>(share); };
+        if (off_axis > 1.0 || (!echo && rho_m < ring.range_min_m)) continue;
+        echo ? mapping::for_each_echo_weight(rho_m, off_axis, reading.range_m, count)
+             : mapping::for_each_no_echo_weight(rho_m, off_axis, count);
+      }
+    }
+  }
+
+  /// visit(occupied, counts of all weights) for each cell that a reading spoke of.
+  template <typename Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t i = 0; i < occupied_.size(); ++i)
+      visit(occupied_[i], std::span(counts_).subspan(i * SonarKnots::kCount, SonarKnots::kCount));
+  }
+
+ private:
+  [[nodiscard]] std::size_t place(CellIndex cell) const {
+    const CellBox& box = truth_.box();
+    return static_cast<std::size_t>(cell.y - box.min.y) * static_cast<std::size_t>(box.width) +
+           static_cast<std::size_t>(cell.x - box.min.x);
+  }
+
+  grids::Georeference georeference_;
+  TrueCells truth_;
+  std::vector<int> rows_;  ///< by cell; -1: not learned from
+  std::vector<bool> occupied_;
+  std::vector<float> counts_;
+};
+
+}  // namespace
+
+SonarCalibration::SonarCalibration(const SonarCalibrationParams& params) : params_(params) {
+  const evidence::ParameterCheck check("sonar calibration: ");
+  check.positive("resolution_m", params.resolution_m);
+  check.positive("ridge", params.ridge);
+  check.at_least("empty_stride", params.empty_stride, 1);
+  check.at_least("most_iterations", params.most_iterations, 1);
+}
+
+void SonarCalibration::add(const sensors::MotionPath& T_map_base, const sensors::SonarRing& ring,
+                           std::span<const sensors::SonarSweep> sweeps, const datasets::OccupancyMap& truth) {
+  const grids::Georeference georeference{.resolution_m = params_.resolution_m};
+  Counts counts(truth, georeference, params_.empty_stride);
+  sensors::Rig rig;
+  rig.sonar_rings = {ring};
+  mapping::MappingCounts ignored;
+  std::vector<mapping::PlacedReading> placed;
+  for (const sensors::SonarSweep& sweep : sweeps) {
+    mapping::place_sweep(
+        rig, georeference, {},
+        {{T_map_base.pose_at(sweep.time), Eigen::Matrix3d::Zero()}, {.yes = 1.0, .no = 0.0, .unknown = 0.0}}, sweep,
+        T_map_base, ignored, placed);
+    for (const mapping::PlacedReading& reading : placed) counts.take_in(reading, ring);
+  }
+  counts.for_each([&](bool occupied, std::span<const float> cell) {
+    Row row{entries_.size(), entries_.size(), occupied, occupied ? 1.0 : static_cast<double>(params_.empty_stride)};
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      if (cell[i] > 0.0F) entries_.push_back({static_cast<std::uint32_t>(i), cell[i]});
+    row.end = entries_.size();
+    if (row.end > row.begin) rows_.push_back(row);
+  });
+}
+
+std::vector<double> SonarCalibration::fit() const {
+  if (rows_.empty()) throw std::invalid_argument("sonar calibration: no reading was of a cell whose truth is known");
+  constexpr auto n = static_cast<Eigen::Index>(SonarKnots::kCount);
+  constexpr double kSmallStep = 1e-6, kLargestStep = 1.0;
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
+  for (int iteration = 0; iteration < params_.most_iterations; ++iteration) {
+    Eigen::VectorXd gradient = params_.ridge * weights;
+    Eigen::MatrixXd hessian = params_.ridge * Eigen::MatrixXd::Identity(n, n);
+    for (const Row& row : rows_) {
+      double log_odds = 0.0;
+      for (std::size_t e = row.begin; e < row.end; ++e) log_odds += entries_[e].count * weights[entries_[e].weight];
+      const double p = 1.0 / (1.0 + std::exp(-log_odds));
+      const double pull = row.count * (p - (row.occupied ? 1.0 : 0.0)), stiffness = row.count * p * (1.0 - p);
+      for (std::size_t e = row.begin; e < row.end; ++e) {
+        gradient[entries_[e].weight] += pull * entries_[e].count;
+        for (std::size_t f = row.begin; f <= e; ++f)
+          hessian(entries_[e].weight, entries_[f].weight) += stiffness * entries_[e].count * entries_[f].count;
+      }
+    }
+    Eigen::VectorXd step = hessian.selfadjointView<Eigen::Lower>().ldlt().solve(-gradient);
+    const double largest = step.cwiseAbs().maxCoeff();
+    if (largest > kLargestStep) step *= kLargestStep / largest;
+    weights += step;
+    if (largest < kSmallStep) break;
+  }
+  return {weights.begin(), weights.end()};
+}
+
+void add_simulated_drive(SonarCalibration& calibration, std::uint64_t seed) {
+  sim::World world = sim::random_world(seed);
+  world.camera.reset();
+  world.range_finders.clear();
+  world.sonars = {sim::sonar_preset("pioneer-16")};
+  const sim::Simulation simulation(std::move(world), seed);
+  const datasets::Dataset drive = readings_of(simulation);
+  std::vector<sensors::OdometryReading> rows;
+  for (const datasets::TimedPose& row : drive.truth) rows.push_back({row.time, row.pose});
+  calibration.add(sensors::MotionPath(std::move(rows)), drive.header.rig.sonar_rings.front(), drive.sonar.front(),
+                  true_map_of(simulation));
+}
+
+}  // namespace credo::evaluation

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "datasets/map_server.hpp"
+#include "mapping/mapper.hpp"
+
+namespace credo::evaluation {
+
+struct SonarCalibrationParams {
+  double resolution_m = 0.05;  ///< side of the cells that are learned from
+  double ridge = 3.0;          ///< weights are as small as 1/sqrt(this) unless readings say otherwise
+  int empty_stride = 4;        ///< of the empty cells, which are many, each so-manieth is taken, and counts as often
+  int most_iterations = 50;
+};
+
+/// Learns the weights of mapping::CalibratedSonar from drives whose true map is known.
+class SonarCalibration {
+ public:
+  /// \throws std::invalid_argument if a parameter is out of its range
+  explicit SonarCalibration(const SonarCalibrationParams& params = {});
+
+  /// Cells on walls that could be seen are learned as occupied, those farther than one cell from any as empty.
+  /// \param T_map_base  the poses of the drive. \param ring  of the rig, whose sweeps these are
+  void add(const sensors::MotionPath& T_map_base, const sensors::SonarRing& ring,
+           std::span<const sensors::SonarSweep> sweeps, const datasets::OccupancyMap& truth);
+
+  [[nodiscard]] std::int64_t cells() const { return static_cast<std::int64_t>(rows_.size()); }
+
+  /// The weights under which the states of all cells are likeliest: logistic regression with a ridge, by Newton's
+  /// method. \throws std::invalid_argument if no cell was learned from.
+  [[nodiscard]] std::vector<double> fit() const;
+
+ private:
+  /// How often each weight counts in a cell: its sparse entries, from begin on.
+  struct Row {
+    std::size_t begin = 0, end = 0;
+    bool occupied = false;
+    double count = 1.0;
+  };
+  struct Entry {
+    std::uint32_t weight;
+    float count;
+  };
+
+  SonarCalibrationParams params_;
+  std::vector<Row> rows_;
+  std::vector<Entry> entries_;
+};
+
+/// Adds a drive of a 16-sonar ring (pioneer-16) through a building that is drawn from a random seed.
+void add_simulated_drive(SonarCalibration& calibration, std::uint64_t seed);
+
+}  // namespace credo::evaluation
