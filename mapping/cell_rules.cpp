@@ -13,33 +13,33 @@ namespace credo::mapping {
 
 using evidence::GridMass;
 
-bool DsmcFold::update(Cell& cell, const GridMass& reading) const {
+bool DsmcFold::update(Cell& cell, const GridMass& reading, sensors::Timestamp /*time*/) const {
   cell = evidence::dsmc(cell, reading);
   return true;
 }
 
-bool DempsterFold::update(Cell& cell, const GridMass& reading) const {
+bool DempsterFold::update(Cell& cell, const GridMass& reading, sensors::Timestamp /*time*/) const {
   const auto fused = evidence::without_conflict(evidence::dsmc(cell, reading));
   if (fused) cell = *fused;
   return fused.has_value();
 }
 
-bool Pcr2Fold::update(Cell& cell, const GridMass& reading) const {
+bool Pcr2Fold::update(Cell& cell, const GridMass& reading, sensors::Timestamp /*time*/) const {
   cell = evidence::pcr2(std::array{cell, reading}).mass;
   return true;
 }
 
-bool Pcr5Fold::update(Cell& cell, const GridMass& reading) const {
+bool Pcr5Fold::update(Cell& cell, const GridMass& reading, sensors::Timestamp /*time*/) const {
   cell = evidence::pcr5(cell, reading).mass;
   return true;
 }
 
-bool DsmhFold::update(Cell& cell, const GridMass& reading) const {
+bool DsmhFold::update(Cell& cell, const GridMass& reading, sensors::Timestamp /*time*/) const {
   cell = evidence::dsmh(std::array{cell, reading}).mass;
   return true;
 }
 
-bool BayesFold::update(Cell& cell, const GridMass& reading) const {
+bool BayesFold::update(Cell& cell, const GridMass& reading, sensors::Timestamp /*time*/) const {
   const auto mass = evidence::without_conflict(reading);
   if (!mass) return false;
   const double occupied = std::clamp(mass->occupied + 0.5 * mass->unknown, certain_at, 1.0 - certain_at);
@@ -79,7 +79,7 @@ GridMass approximated(const GridMass& reading, int found_empty, int found_full, 
           .unknown = 1.0 - full + small(params.e3)};
 }
 
-bool ApproximatedDempsterFold::update(Cell& cell, const GridMass& reading) const {
+bool ApproximatedDempsterFold::update(Cell& cell, const GridMass& reading, sensors::Timestamp /*time*/) const {
   if (reading.empty == reading.occupied) return true;  // neither region
   ++(reading.empty > reading.occupied ? cell.found_empty : cell.found_full);
   return DempsterFold{}.update(cell.mass, approximated(reading, cell.found_empty, cell.found_full, params));

@@ -7,16 +7,18 @@
 #include <cstdint>
 
 #include "evidence/grid_mass.hpp"
+#include "sensors/time.hpp"
 
 namespace credo::mapping {
 
 /// How a cell takes readings in, one after the other: a fold. Its result depends on their order, unlike that of
-/// evidence::FixedLogCommonality, which stands for all rules that do not. A new `Cell` is vacuous.
+/// evidence::FixedLogCommonality, which stands for all rules that do not. A new `Cell` is vacuous. `time` is that of
+/// the reading.
 template <typename Rule>
 concept CellRule = requires(const Rule& rule, typename Rule::Cell& cell, const typename Rule::Cell& known,
-                            const evidence::GridMass& reading) {
+                            const evidence::GridMass& reading, sensors::Timestamp time) {
   /// False where the reading was abandoned: total conflict, the cell is as it was.
-  { rule.update(cell, reading) } -> std::same_as<bool>;
+  { rule.update(cell, reading, time) } -> std::same_as<bool>;
   { rule.masses(known) } -> std::same_as<evidence::GridMass>;
 };
 
@@ -24,35 +26,35 @@ concept CellRule = requires(const Rule& rule, typename Rule::Cell& cell, const t
 /// absorbs.
 struct DsmcFold {
   using Cell = evidence::GridMass;
-  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading) const;
+  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell; }
 };
 
 /// Dempster's rule (Li X. 2007, eq. (12)); a sensor's own conflict is conflict.
 struct DempsterFold {
   using Cell = evidence::GridMass;
-  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading) const;
+  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell; }
 };
 
 /// PCR2 (Li P., eq. (6)).
 struct Pcr2Fold {
   using Cell = evidence::GridMass;
-  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading) const;
+  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell; }
 };
 
 /// PCR5, which is PCR6 here.
 struct Pcr5Fold {
   using Cell = evidence::GridMass;
-  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading) const;
+  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell; }
 };
 
 /// DSm hybrid rule: what contradicts goes to ignorance.
 struct DsmhFold {
   using Cell = evidence::GridMass;
-  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading) const;
+  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell; }
 };
 
@@ -62,7 +64,7 @@ struct BayesFold {
   using Cell = double;  ///< ln (P(occupied) / P(empty)), from 0
   double certain_at = 1e-6;
 
-  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading) const;
+  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   /// Bayesian masses.
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const;
 };
@@ -93,7 +95,7 @@ struct ApproximatedDempsterFold {
   };
   ApproximationParams params;
 
-  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading) const;
+  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell.mass; }
 };
 

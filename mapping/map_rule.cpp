@@ -28,6 +28,7 @@ const std::array kRules{
     NamedRule{"adaptive", ApproximatedDempsterFold{}, "improved D-S rule of Zhu: readings approximated by history"},
     NamedRule{"fixed", ApproximatedDempsterFold{{.approximation = Approximation::kFixed}},
               "Dempster's rule, readings approximated alike"},
+    NamedRule{"changing", ChangingFold{}, "DSm hybrid rule over time: what was empty may be occupied now"},
 };
 
 /// Calls insert(reading) in the order of the times; scans before sweeps.

@@ -10,13 +10,14 @@
 
 #include "grids/mass_map.hpp"
 #include "mapping/cell_rules.hpp"
+#include "mapping/changing_fold.hpp"
 #include "mapping/mapper.hpp"
 
 namespace credo::mapping {
 
 /// How cells take readings in: a read-out of the map that no order changes, or a fold.
 using MapRule = std::variant<grids::ReadOut, DsmcFold, DempsterFold, Pcr2Fold, Pcr5Fold, DsmhFold, BayesFold,
-                             ApproximatedDempsterFold>;
+                             ApproximatedDempsterFold, ChangingFold>;
 
 /// A rule with its name and what it is in a few words.
 struct NamedRule {

@@ -38,7 +38,7 @@ class SequentialMapper {
     place_sweep(rig_, params_.georeference, params_.pose, T_map_base, sweep, path, counts_, placed_);
     for (const PlacedReading& reading : placed_)
       spread(rig_.sonar_rings[static_cast<std::size_t>(sweep.sensor)], sonars_[static_cast<std::size_t>(sweep.sensor)],
-             reading);
+             reading, sweep.time);
   }
 
   /// A scan's evidence is that of `Mapper` on an empty map: each cell takes it in once.
@@ -62,7 +62,7 @@ class SequentialMapper {
     counts_.no_returns += counts.no_returns;
     counts_.missing += counts.missing;
     counts_.out_of_range += counts.out_of_range;
-    fold(one);
+    fold(one, scan.time);
   }
 
   [[nodiscard]] const grids::CellGrid<Cell>& grid() const { return grid_; }
@@ -74,12 +74,13 @@ class SequentialMapper {
   }
 
  private:
-  void take_in(grids::CellIndex cell, const evidence::GridMass& mass) {
+  void take_in(grids::CellIndex cell, const evidence::GridMass& mass, sensors::Timestamp time) {
     if (mass == evidence::GridMass::vacuous()) return;
-    abandoned_ += rule_.update(grid_.see(cell), mass) ? 0 : 1;
+    abandoned_ += rule_.update(grid_.see(cell), mass, time) ? 0 : 1;
   }
 
-  void spread(const sensors::SonarRing& ring, const AnySonarModel& model, const PlacedReading& reading) {
+  void spread(const sensors::SonarRing& ring, const AnySonarModel& model, const PlacedReading& reading,
+              sensors::Timestamp time) {
     const bool echo = std::isfinite(reading.range_m);
     const double reach_m = echo ? model.reach(reading.range_m) : model.no_echo().reach();
     const double reliability = reading.reliability * (echo ? model.reliability() : model.no_echo().reliability());
@@ -95,17 +96,17 @@ class SequentialMapper {
         const double rho_m = there.norm(), theta_rad = std::atan2(there.y(), there.x());
         const evidence::GridMass mass =
             echo ? model.mass(rho_m, theta_rad, reading.range_m) : model.no_echo().mass(rho_m, theta_rad);
-        take_in(cell, evidence::discount(mass, reliability));
+        take_in(cell, evidence::discount(mass, reliability), time);
       }
     }
   }
 
-  void fold(const grids::EvidentialGrid& one) {
+  void fold(const grids::EvidentialGrid& one, sensors::Timestamp time) {
     for (const auto& [index, tile] : one.tiles())
       for (int place = 0; place < grids::Tile::kCells; ++place) {
         const evidence::FixedLogCommonality cell{tile.empty[place], tile.occupied[place], tile.unknown[place]};
         if (cell == evidence::FixedLogCommonality{}) continue;
-        take_in(grids::cell_of(index, place), evidence::masses(cell.value()));
+        take_in(grids::cell_of(index, place), evidence::masses(cell.value()), time);
       }
   }
 

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "mapping/cell_rules.hpp"
+
+namespace credo::mapping {
+
+struct ChangingParams {
+  /// How much of the evidence is left after a second: contextual discounting (Mercier, Quost and Denoeux 2008), as what
+  /// is empty becomes occupied at another rate than the reverse. By default half is left after ten minutes of "empty",
+  /// and after an hour of "occupied": walls stay.
+  double empty_kept_per_s = 0.99885;
+  double occupied_kept_per_s = 0.99981;
+  double settled_at = 0.9;   ///< belief from which a cell is in a state that readings can contradict
+  double changed_at = 0.98;  ///< belief in the opposite, of all readings since the first contradiction, from which the
+                             ///< cell has changed: three readings of a laser
+  double settles_until = 0.5;  ///< belief in the state, of the same readings, from which the contradiction was noise
+};
+
+/// A cell of a world that changes: DSm hybrid rule over time. "Empty and occupied" is nothing at one moment, so what a
+/// reading contradicts goes to ignorance as long as the cell is in no state; but a cell can have been empty and be
+/// occupied. So the first reading that contradicts a settled cell begins a second account, of the readings from then
+/// on: if they agree on the opposite, the cell has changed, at the time of that first reading; if they come back to
+/// what the cell was, it was noise.
+struct ChangingFold {
+  struct Cell {
+    evidence::GridMass mass;              ///< what is
+    evidence::GridMass account;           ///< of the readings since `contradicted`
+    sensors::Timestamp seen = 0;          ///< latest reading
+    sensors::Timestamp since = 0;         ///< settled in its state from then on
+    sensors::Timestamp contradicted = 0;  ///< first reading of the account
+    std::int32_t changes = 0;
+    bool settled = false;
+    bool open = false;  ///< an account is open
+  };
+  ChangingParams params;
+
+  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time) const;
+  [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell.mass; }
+};
+static_assert(CellRule<ChangingFold>);
+
+/// Since when a cell is what it is; nothing where it is in no state. A cell that never changed: since it was settled.
+[[nodiscard]] std::optional<sensors::Timestamp> since_when(const ChangingFold::Cell& cell);
+
+/// Mass of "it was the one and is the other": what the account holds against the state.
+[[nodiscard]] double changing(const ChangingFold::Cell& cell);
+
+}  // namespace credo::mapping
