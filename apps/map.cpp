@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <utility>
+#include <variant>
 
 #include "apps/about.hpp"
 #include "apps/commands.hpp"
@@ -22,9 +26,12 @@
 #include "apps/terminal.hpp"
 #include "datasets/map_server.hpp"
 #include "datasets/trajectory.hpp"
+#include "mapping/map_rule.hpp"
 #include "mapping/mapper.hpp"
 #include "results/belief_tiff.hpp"
 #include "results/config.hpp"
+#include "results/map_sheet.hpp"
+#include "results/mass_map_files.hpp"
 #include "results/pictures.hpp"
 #include "results/results_folder.hpp"
 
@@ -36,6 +43,7 @@ namespace fs = std::filesystem;
 struct MapOptions {
   MapSource from;
   SonarChoice sonar;
+  std::string rule;  ///< empty: the map that no order changes, of which most rules are read-outs
   std::string out, pictures;
   std::string readout = "normalized";
   bool force = false;
@@ -43,11 +51,30 @@ struct MapOptions {
   OutputFormat format;
 };
 
-mapping::TrajectoryMap build(const MapOptions& o, const std::vector<MapPart>& parts) {
-  mapping::TrajectoryMap map{.grid = grids::EvidentialGrid(o.params.mapper.georeference), .counts = {}};
+using Made = std::variant<mapping::TrajectoryMap, mapping::RuleMap>;
+
+void require_fits(const MapOptions& o, const std::vector<MapPart>& parts) {
   Eigen::AlignedBox2d ground;
   for (const MapPart& part : parts) ground.extend(seen_ground(part.path, part.rig, part.scans, part.sweeps, o.params));
   require_map_fits(ground, o.params.mapper.georeference.resolution_m);
+}
+
+mapping::RuleMap build_by_rule(const MapOptions& o, const std::vector<MapPart>& parts) {
+  if (parts.size() > 1)
+    throw std::runtime_error(
+        "--rule takes readings in one after the other, so they need poses of one frame: this log "
+        "has some for each sensor; give them with --poses");
+  Progress progress("mapping");
+  const MapPart& part = parts.front();
+  return mapping::map_along(part.path, part.rig, part.scans, part.sweeps, o.params, mapping::map_rule(o.rule).rule,
+                            [&](double share) {
+                              Interruptible::check();
+                              progress.update(share);
+                            });
+}
+
+mapping::TrajectoryMap build_sum(const MapOptions& o, const std::vector<MapPart>& parts) {
+  mapping::TrajectoryMap map{.grid = grids::EvidentialGrid(o.params.mapper.georeference), .counts = {}};
   Progress progress("mapping");
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto report = [&](double share) {
@@ -62,6 +89,12 @@ mapping::TrajectoryMap build(const MapOptions& o, const std::vector<MapPart>& pa
     map.without_pose += one.without_pose;
   }
   return map;
+}
+
+Made build(const MapOptions& o, const std::vector<MapPart>& parts) {
+  require_fits(o, parts);
+  if (o.rule.empty()) return build_sum(o, parts);
+  return build_by_rule(o, parts);
 }
 
 /// Time from the first to the last of some rows, for a message.
@@ -81,9 +114,10 @@ struct TimeSpan {
 };
 
 /// Readings that cannot be placed are left out, and that is said; poses that place none of them are a mistake.
-void check_overlap(const MapOptions& o, const std::vector<MapPart>& parts, const mapping::TrajectoryMap& map,
-                   const std::string& poses) {
-  const std::int64_t placed = map.counts.scans + map.counts.sweeps, all = placed + map.without_pose;
+/// \param without_pose  how many were left out
+void check_overlap(const MapOptions& o, const std::vector<MapPart>& parts, const mapping::MappingCounts& counts,
+                   std::int64_t without_pose, const std::string& poses) {
+  const std::int64_t placed = counts.scans + counts.sweeps, all = placed + without_pose;
   if (all == 0) fail_without_readings(o.from);
   TimeSpan readings, path;
   for (const MapPart& part : parts) {
@@ -91,24 +125,45 @@ void check_overlap(const MapOptions& o, const std::vector<MapPart>& parts, const
     readings.cover(part.sweeps);
     path.cover(part.path.rows());
   }
-  const std::string message = std::to_string(map.without_pose) + " of " + std::to_string(all) +
+  const std::string message = std::to_string(without_pose) + " of " + std::to_string(all) +
                               " readings have no pose near in time: the readings are from " + readings.text() + ", " +
                               poses + " from " + path.text();
   if (placed == 0) throw std::runtime_error(o.from.source + ": " + message + "; are they of the same drive?");
-  if (10 * map.without_pose > all) say_warning(message);
+  if (10 * without_pose > all) say_warning(message);
 }
 
-void write(const MapOptions& o, const mapping::TrajectoryMap& map, const std::vector<MapPart>& parts,
-           const std::string& poses, const fs::path& folder, const std::optional<PictureFolder>& pictures) {
-  datasets::write_map(datasets::to_occupancy(map.grid), folder / "map.yaml");
+void write_map_files(const MapOptions& o, const mapping::TrajectoryMap& made, std::span<const geometry::Pose2> way,
+                     const fs::path& folder, const std::optional<PictureFolder>& pictures) {
+  datasets::write_map(datasets::to_occupancy(made.grid), folder / "map.yaml");
   const auto channels = o.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized;
-  results::write_belief_tiff(results::belief_image(map.grid, channels), folder / "map_belief.tiff");
-  results::write_text(folder / "config.yaml", results::to_yaml(o.params, CREDO_VERSION, o.from.source, poses));
+  results::write_belief_tiff(results::belief_image(made.grid, channels), folder / "map_belief.tiff");
+  if (pictures) results::write_png(pictures->path() / "map.png", results::map_picture(made.grid, way));
+}
+
+void write_map_files(const MapOptions& o, const mapping::RuleMap& made, std::span<const geometry::Pose2>,
+                     const fs::path& folder, const std::optional<PictureFolder>& pictures) {
+  datasets::write_map(results::to_occupancy(made.map), folder / "map.yaml");
+  results::write_belief_tiff(results::belief_image(made.map), folder / "map_belief.tiff");
   if (!pictures) return;
+  const std::string title = std::string(mapping::name_of(o.params.mapper.sonar)) + " " + o.rule;
+  results::write_png(pictures->path() / "map.png",
+                     results::map_sheet(std::array{results::SheetMap{title, "", &made.map}}));
+}
+
+void write(const MapOptions& o, const Made& made, const std::vector<MapPart>& parts, const std::string& poses,
+           const fs::path& folder, const std::optional<PictureFolder>& pictures) {
   std::vector<geometry::Pose2> way;
   for (const auto& row : parts.front().path.rows()) way.push_back(row.T_odom_base);
-  results::write_png(pictures->path() / "map.png", results::map_picture(map.grid, way));
-  pictures->publish();
+  std::visit([&](const auto& map) { write_map_files(o, map, way, folder, pictures); }, made);
+  std::string config = results::to_yaml(o.params, CREDO_VERSION, o.from.source, poses);
+  if (!o.rule.empty()) config += "rule: " + o.rule + "\n";
+  results::write_text(folder / "config.yaml", config);
+  if (pictures) pictures->publish();
+}
+
+grids::CellBox box_of(const Made& made) {
+  if (const auto* sum = std::get_if<mapping::TrajectoryMap>(&made)) return sum->grid.bounding_box();
+  return std::get<mapping::RuleMap>(made).map.box;
 }
 
 void execute(MapOptions o) {
@@ -120,29 +175,31 @@ void execute(MapOptions o) {
   datasets::StagedFolder folder = results::stage_results(o.out, o.force);
   std::optional<PictureFolder> pictures;
   if (!o.pictures.empty()) pictures.emplace(o.pictures, o.out, folder.path(), o.force);
-  const mapping::TrajectoryMap map = about(o.from.source, [&] { return build(o, parts); });
-  check_overlap(o, parts, map, poses);
-  warn_of_saturation(map.grid);
-  about(o.from.source, [&] { write(o, map, parts, poses, folder.path(), pictures); });
+  const Made made = about(o.from.source, [&] { return build(o, parts); });
+  const auto [counts, without_pose] =
+      std::visit([](const auto& map) { return std::pair(map.counts, map.without_pose); }, made);
+  check_overlap(o, parts, counts, without_pose, poses);
+  if (const auto* sum = std::get_if<mapping::TrajectoryMap>(&made)) warn_of_saturation(sum->grid);
+  about(o.from.source, [&] { write(o, made, parts, poses, folder.path(), pictures); });
   Interruptible::check();
   folder.commit();
-  const grids::CellBox box = map.grid.bounding_box();
+  const grids::CellBox box = box_of(made);
   if (o.format.json()) {
     print(nlohmann::ordered_json{{"map", o.out},
                                  {"poses", poses},
-                                 {"scans", map.counts.scans},
-                                 {"sonar_sweeps", map.counts.sweeps},
-                                 {"echoes", map.counts.echoes},
-                                 {"no_returns", map.counts.no_returns},
-                                 {"without_pose", map.without_pose},
+                                 {"scans", counts.scans},
+                                 {"sonar_sweeps", counts.sweeps},
+                                 {"echoes", counts.echoes},
+                                 {"no_returns", counts.no_returns},
+                                 {"without_pose", without_pose},
                                  {"width", box.width},
                                  {"height", box.height},
                                  {"resolution_m", o.params.mapper.georeference.resolution_m}});
     return;
   }
   std::printf("mapped %lld scans and %lld sonar sweeps with %s; %lld readings had no pose near in time\n",
-              static_cast<long long>(map.counts.scans), static_cast<long long>(map.counts.sweeps), poses.c_str(),
-              static_cast<long long>(map.without_pose));
+              static_cast<long long>(counts.scans), static_cast<long long>(counts.sweeps), poses.c_str(),
+              static_cast<long long>(without_pose));
   std::printf("map: %s (%d x %d cells of %g m)\n", o.out.c_str(), box.width, box.height,
               o.params.mapper.georeference.resolution_m);
   if (!o.pictures.empty()) std::printf("picture: %s\n", (fs::path(o.pictures) / "map.png").c_str());
@@ -155,7 +212,9 @@ void add_map(CLI::App& app) {
   command->footer(
       "  credo map datasets/office --out results/office_map                        with the ground truth\n"
       "  credo map datasets/office --poses results/office/trajectory.tum --out results/office_map\n"
-      "  credo map intel.log.gz --out results/intel --resolution 0.1 --pictures results/intel_pictures");
+      "  credo map intel.log.gz --out results/intel --resolution 0.1 --pictures results/intel_pictures\n"
+      "  credo map datasets/room --sensors sonar --model calibrated                another sonar model\n"
+      "  credo map datasets/room --sensors sonar --model zhu --rule adaptive       and another rule");
   auto o = std::make_shared<MapOptions>();
   add_map_source_options(*command, o->from);
   const auto models = mapping::sonar_model_names();
@@ -164,6 +223,12 @@ void add_map(CLI::App& app) {
       ->capture_default_str();
   add_printed_option(*command, o->sonar);
   add_sonar_weights_option(*command, o->sonar);
+  std::vector<std::string> rules;
+  for (const mapping::NamedRule& rule : mapping::map_rules()) rules.emplace_back(rule.name);
+  command
+      ->add_option("--rule", o->rule,
+                   "how cells take readings in; default: a map that no order changes, Dempster's masses written")
+      ->check(CLI::IsMember(rules));
   command->add_option("-o,--out", o->out, "folder for the map; default results/NAME_map")->check(a_path());
   command->add_option("--resolution", o->params.mapper.georeference.resolution_m, "side of a cell [m]")
       ->check(any_resolution())
