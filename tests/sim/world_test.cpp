@@ -164,6 +164,7 @@ TEST(WorldFile, ComplaintsNameFileLineAndWhatToDo) {
       {"preset: opensimple", "preset: opensimple, rate: .nan", ":9:", "finite number"},
       {"preset: opensimple", "preset: opensimple, k: 0, k: 1", ":9:", "comes twice"},
       {"preset: opensimple", "preset: opensimple, [1]: 1", ":9:", "expected a key"},
+      {"preset: opensimple", "preset: opensimple, field: 7", ":9:", "from 0.01 to 6.28"},
       {"path:", "  pillars: [{at: [2, 2], sides: 2000000000}]\npath:", ":6:", "from 3 to 360"},
       {"path:", "drive: {step: 1e-12}\npath:", ":6:", "from 0.01"},
       {"path:", "drive: {speed: 1e-9}\npath:", ":6:", "from 0.01"},
@@ -192,6 +193,39 @@ TEST(WorldFile, ComplaintsNameFileLineAndWhatToDo) {
     EXPECT_THAT(text, HasSubstr(c.says)) << c.to;
     EXPECT_THAT(text, HasSubstr(c.line)) << c.to;
   }
+}
+
+/// The tiny world with these keys of a sonar ring in the place of its range finder.
+std::string with_ring(const std::string& keys) {
+  return changed("  range_finders:\n    - {preset: opensimple}", "  sonars:\n    - {" + keys + "}");
+}
+
+World loaded(const std::string& text) {
+  const tests::TemporaryFolder folder;
+  return load_world(folder.write("world.yaml", text));
+}
+
+TEST(WorldFile, ALaserOfHalfATurnHasABeamOnEitherEdge) {
+  const World world = loaded(changed("preset: opensimple", "preset: tof-lms, count: 181, field: 3.14159265358979"));
+  const sensors::RangeFinder& finder = world.range_finders.front().finder;
+  EXPECT_NEAR(finder.beam_angle(0), -geometry::to_radians(90.0), 1e-12);
+  EXPECT_NEAR(finder.beam_angle(90), 0.0, 1e-12);
+  EXPECT_NEAR(finder.beam_angle(180), geometry::to_radians(90.0), 1e-12);
+}
+
+TEST(WorldFile, ARingOfItsOwnFiresAtOnceOrInGroups) {
+  const std::string transducers = "transducers: [[0, 0.1, 1.57], [0.1, 0, 0], [0, -0.1, -1.57]]";
+  const sensors::SonarRing at_once = loaded(with_ring(transducers)).sonars.front().ring;
+  ASSERT_EQ(at_once.T_base_transducer.size(), 3U);
+  EXPECT_EQ(at_once.T_base_transducer[2].theta, -1.57);
+  EXPECT_TRUE(at_once.firing_times_s.empty());
+  const World in_groups = loaded(with_ring(transducers + ", firing_times: [0, 0.1, 0]"));
+  EXPECT_EQ(in_groups.sonars.front().ring.firing_times_s, (std::vector<double>{0.0, 0.1, 0.0}));
+  EXPECT_THAT(complaint(with_ring(transducers + ", firing_times: [0, 0.1]")), HasSubstr(":9: 'firing_times'"));
+  EXPECT_THAT(complaint(with_ring("firing_times: [0, 1]")), HasSubstr("list of 16 numbers"));
+  EXPECT_THAT(complaint(with_ring(transducers + ", firing_times: [0, 61, 0]")), HasSubstr("within 60 s"));
+  EXPECT_THAT(complaint(with_ring("transducers: []")), HasSubstr("at least one [x, y, theta]"));
+  EXPECT_THAT(complaint(with_ring("transducers: [[0, 1]]")), HasSubstr("3 numbers"));
 }
 
 TEST(WorldFile, ThingsThatFindNoWallSayWhere) {
@@ -282,6 +316,8 @@ TEST(WorldFile, TheManualsExampleLoadsAndItsDefaultsAreTrue) {
   EXPECT_EQ(world.range_finders[0].faintest, range_finder_preset("opensimple").faintest);
   EXPECT_EQ(world.camera->struts_rad, camera_preset("conic-640").struts_rad);
   EXPECT_EQ(world.camera->strut_width_px, camera_preset("conic-640").strut_width_px);
+  EXPECT_NEAR(world.range_finders[0].finder.angle_increment_rad, geometry::to_radians(2.0), 1e-12);
+  EXPECT_EQ(world.sonars[1].ring.firing_times_s.size(), 3U);
   EXPECT_EQ(world.sonars[0].cross_talk_share, SonarSetup{}.cross_talk_share);
   EXPECT_EQ(world.clutter_share, defaults.clutter_share);
   EXPECT_EQ(world.people, defaults.people);
