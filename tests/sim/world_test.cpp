@@ -281,6 +281,68 @@ TEST(WorldFile, ThePathStaysIndoorsBetweenRoomsToo) {
               HasSubstr("waypoint [-0.4, 1] is outside"));
 }
 
+TEST(WorldFile, AnExtendedWorldsDriveIsReplacedAsAWhole) {
+  const tests::TemporaryFolder folder;
+  folder.write("first.yaml", changed("path:", "drive: {mode: continuous, speed: 0.7, duration: 9}\npath:"));
+  const std::string second = "format: credo-world/1\nextends: first.yaml\n";
+  EXPECT_EQ(load_world(folder.write("second.yaml", second)).drive.speed_mps, 0.7);
+  const World other = load_world(folder.write("other.yaml", second + "drive: {speed: 0.3}\n"));
+  EXPECT_EQ(other.drive.mode, Drive::Mode::kStopAndGo);
+  EXPECT_FALSE(other.drive.duration_s);
+}
+
+/// The tiny world with a door and a box, and what changes in it.
+std::string with_changes(const std::string& changes) {
+  return changed("path:",
+                 "  boxes: [{at: [2, 2.4], size: [0.4, 0.4]}]\n  doors: [{at: [4, 2], kind: opening, leaf: 0}]\n"
+                 "drive: {duration: 60}\nchanges: [" +
+                     changes + "]\npath:");
+}
+
+TEST(WorldFile, ChangesComeInTheirOrder) {
+  const World world =
+      loaded(with_changes("{when: 5, door: [4, 2], leaf: 1.5}, {when: 5, move: [2, 2.4], by: [1, 0]}, "
+                          "{when: 8, take: [3, 2.4]}, {when: 9, put: {at: [2, 2], size: [0.2, 0.2]}}"));
+  std::vector<std::string> events;
+  for (const Change& change : world.changes) events.push_back(change.event);
+  EXPECT_THAT(events, testing::ElementsAre("door_opened", "obstacle_moved", "obstacle_removed", "obstacle_added"));
+}
+
+TEST(WorldFile, AChangeThatCannotBeSaysWhere) {
+  struct Case {
+    const char *change, *says;
+  };
+  const Case cases[] = {{"{door: [4, 2], leaf: 1}", "needs the key 'when'"},
+                        {"{when: 0, door: [4, 2], leaf: 1}", "after the start"},
+                        {"{when: 5, door: [4, 2], leaf: 1}, {when: 4, take: [2, 2.4]}", "not before the change above"},
+                        {"{when: 5}", "needs one of the keys 'put', 'take', 'move' and 'door'"},
+                        {"{when: 5, take: [2, 2.4], move: [2, 2.4]}", "not two"},
+                        {"{when: 5, take: [3.5, 2.4]}", "nothing that can be moved stands within 0.5 m of [3.5, 2.4]"},
+                        {"{when: 5, take: [2, 2.4]}, {when: 6, take: [2, 2.4]}", "nothing that can be moved"},
+                        {"{when: 5, door: [0, 2], leaf: 1}", "no opening with a leaf within 0.5 m of [0, 2]"},
+                        {"{when: 5, take: [2, 2.4], leaf: 1}", "unknown key 'leaf'"},
+                        {"{when: 5, put: {at: [2, 2], size: [0, 1]}}", "two lengths larger than 0"},
+                        {"{when: 60, take: [2, 2.4]}", "the drive is over after 60"}};
+  for (const Case& c : cases) {
+    const std::string text = complaint(with_changes(c.change));
+    EXPECT_THAT(text, HasSubstr(c.says)) << c.change;
+    EXPECT_THAT(text, HasSubstr(":9:")) << c.change;
+  }
+}
+
+TEST(WorldFile, TheRobotMayGoWhereSomethingStoodOrWillStand) {
+  const auto with = [](const std::string& change) {
+    return complaint(changed("path:", "  boxes: [{at: [3.5, 1], size: [0.2, 0.2]}]\nchanges: [" + change +
+                                          "]\npath: [[1, 1], [3.4, 1], [1, 1]] #"));
+  };
+  EXPECT_THAT(with("{when: 1, put: {at: [1, 2], size: [0.2, 0.2]}}"), HasSubstr("drives through 'cabinet'"));
+  EXPECT_EQ(with("{when: 3, take: [3.5, 1]}"), "");
+  EXPECT_THAT(with("{when: 25, take: [3.5, 1]}"), HasSubstr("drives through 'cabinet'"));
+  EXPECT_EQ(with("{when: 3, take: [3.5, 1]}, {when: 35, put: {at: [3.5, 1], size: [0.2, 0.2]}}"), "");
+  EXPECT_THAT(with("{when: 3, take: [3.5, 1]}, {when: 6, put: {at: [2, 1], size: [0.2, 0.2]}}"),
+              HasSubstr("'cabinet' at [1.9, 1]"));
+}
+
 TEST(WorldFile, AnEmptyOneIsCalledSo) {
   EXPECT_THAT(complaint(""), testing::EndsWith("world.yaml: is empty; expected a world file"));
   EXPECT_THAT(complaint("# nothing\n"), HasSubstr("is empty"));
@@ -327,6 +389,7 @@ TEST(WorldFile, TheManualsExampleLoadsAndItsDefaultsAreTrue) {
   EXPECT_EQ(world.failures[0].scale, Failure{}.scale);
   EXPECT_EQ(world.failures[1].to_s, Failure{}.to_s);
   EXPECT_EQ(world.only_planned.size(), 3U);  // of the shelf
+  EXPECT_EQ(world.changes.size(), 4U);
 }
 
 TEST(WorldFile, AFolderIsNone) {
