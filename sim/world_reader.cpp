@@ -13,6 +13,7 @@
 #include "sim/building_reader.hpp"
 #include "sim/change_reader.hpp"
 #include "sim/failures.hpp"
+#include "sim/lanes.hpp"
 #include "sim/passage.hpp"
 #include "sim/presets.hpp"
 #include "sim/sensor_reader.hpp"
@@ -41,16 +42,23 @@ Drive read_drive(YamlMap map) {
 /// What can be read only where all else is known; a world that extends another may replace it as a whole.
 struct Pending {
   std::vector<std::string> waypoints;  ///< "file:line" of each
+  std::optional<YamlMap> lanes;        ///< instead of waypoints
   std::vector<YamlMap> changes;
 };
 
-/// Waypoints [x, y], or {carried_to: [x, y], turn: rad} where the robot is set down.
+/// Waypoints [x, y], or {carried_to: [x, y], turn: rad} where the robot is set down; or {lanes: ...}.
 void read_path(YamlMap& top, World& world, const std::string& file, Pending& pending) {
   world.path.clear();
   pending.waypoints.clear();
+  pending.lanes.reset();
   const YAML::Node path = top.child("path");
+  if (path.IsDefined() && path.IsMap()) {
+    YamlMap map(path, file, "the path");
+    pending.lanes = map.map("lanes");
+    return map.close();
+  }
   if (!path.IsDefined() || !path.IsSequence() || path.size() < 2)
-    top.fail("path", "'path' must be a list of at least two waypoints [x, y]");
+    top.fail("path", "'path' must be a list of at least two waypoints [x, y], or {lanes: ...}");
   for (const YAML::Node& item : path) {
     pending.waypoints.push_back(file + ":" + std::to_string(item.Mark().line + 1));
     if (item.IsSequence()) {
@@ -174,6 +182,18 @@ void read_world(const std::filesystem::path& file, World& world, Pending& pendin
   top.close();
 }
 
+std::vector<Waypoint> read_lanes(YamlMap map, const World& world) {
+  Lanes lanes;
+  lanes.start = map.point("start");
+  lanes.heading_rad = map.number("heading", lanes.heading_rad);
+  lanes.spacing_m = positive(map, "spacing", lanes.spacing_m, 0.1);
+  lanes.margin_m = not_negative(map, "margin", lanes.margin_m);
+  map.close();
+  std::vector<Waypoint> path;
+  placed(map, "start", [&] { path = sweep_in_lanes(world, lanes); });
+  return path;
+}
+
 void check_path(const World& world, const Pending& pending) {
   std::optional<Obstruction> obstruction;
   try {
@@ -182,6 +202,7 @@ void check_path(const World& world, const Pending& pending) {
     obstruction = {0, error.what()};
   }
   if (!obstruction) return;
+  if (pending.lanes) pending.lanes->fail("start", obstruction->what + ", or the 'margin' of the lanes larger");
   throw std::runtime_error(pending.waypoints[obstruction->waypoint] + ": " + obstruction->what);
 }
 
@@ -202,6 +223,7 @@ World load_world(const std::filesystem::path& file) {
   std::set<std::string> seen;
   read_world(file, world, pending, seen);
   read_changes(pending.changes, world);
+  if (pending.lanes) world.path = read_lanes(*pending.lanes, world);
   check_path(world, pending);
   check_changes(world, pending);
   state_accuracy(world);

@@ -281,6 +281,28 @@ TEST(WorldFile, ThePathStaysIndoorsBetweenRoomsToo) {
               HasSubstr("waypoint [-0.4, 1] is outside"));
 }
 
+TEST(WorldFile, APathMayBeLanesThatFitTheBuildingAtHand) {
+  const std::string lanes = changed("path: [[1, 1], [2, 1]]", "path: {lanes: {start: [0.6, 0.6], spacing: 0.9}}");
+  EXPECT_EQ(loaded(lanes).path.size(), 6U);
+  const auto with = [&](const std::string& keys) {
+    return complaint(changed("path: [[1, 1], [2, 1]]", "path: {lanes: {" + keys + "}}"));
+  };
+  EXPECT_THAT(with("spacing: 1"), HasSubstr(":6:"));
+  EXPECT_THAT(with("start: [0.1, 0.1]"), HasSubstr(":6: there is no room for the robot at the start of the lanes"));
+  EXPECT_THAT(with("start: [1, 1], spacing: 0.01"), HasSubstr("from 0.1"));
+  EXPECT_THAT(with("start: [1, 1], spaceing: 1"), HasSubstr("did you mean 'spacing'"));
+  EXPECT_THAT(complaint(changed("path: [[1, 1], [2, 1]]", "path: {lane: {start: [1, 1]}}")), HasSubstr("'lanes'"));
+
+  const tests::TemporaryFolder folder;
+  folder.write("small.yaml", lanes);
+  const std::string larger =
+      "format: credo-world/1\nextends: small.yaml\nbuilding:\n  rooms:\n"
+      "    - outline: [[0, 0], [4, 0], [4, 5], [0, 5]]\n";
+  EXPECT_EQ(load_world(folder.write("large.yaml", larger)).path.size(), 10U);
+  const std::string other = "format: credo-world/1\nextends: small.yaml\npath: [[1, 1], [2, 1]]\n";
+  EXPECT_EQ(load_world(folder.write("other.yaml", other)).path.size(), 2U);
+}
+
 TEST(WorldFile, AnExtendedWorldsDriveIsReplacedAsAWhole) {
   const tests::TemporaryFolder folder;
   folder.write("first.yaml", changed("path:", "drive: {mode: continuous, speed: 0.7, duration: 9}\npath:"));
