@@ -6,8 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "geometry/angles.hpp"
 #include "geometry/segment.hpp"
@@ -55,6 +57,57 @@ TEST(ShippedWorlds, TheCorridorEndHas42AcquisitionsOnTwoWays) {
     EXPECT_EQ(Trajectory(two.path, two.drive).stops().size(), 21U) << second;
     EXPECT_EQ(one.panels.size(), two.panels.size()) << second;
   }
+}
+
+TEST(ShippedWorlds, ThePapersRoomsAreMeasuredAsPrinted) {
+  struct Case {
+    const char* name;
+    double width_m, height_m;
+    geometry::Pose2 start;
+    std::size_t transducers;
+  };
+  const Case cases[] = {{"li2006", 20.0, 20.0, {1.0, 1.0, 0.0}, 16},
+                        {"li2007", 4.55, 3.75, {1.0, 0.6, 0.0}, 16},
+                        {"lip_1", 13.0, 8.0, {0.0, 0.0, 0.0}, 16},
+                        {"lip_2", 13.0, 8.0, {6.0, 0.0, 0.0}, 16},
+                        {"zhu", 9.0, 7.0, {0.6, 0.6, 0.0}, 5}};
+  for (const Case& c : cases) {
+    const World world = load_world(shipped(c.name));
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d& corner : world.areas.front()) box.extend(corner);
+    EXPECT_NEAR(box.sizes().x(), c.width_m, 1e-9) << c.name;
+    EXPECT_NEAR(box.sizes().y(), c.height_m, 1e-9) << c.name;
+    EXPECT_EQ(Trajectory(world.path, world.drive).pose_at(0.0), c.start) << c.name;
+    EXPECT_EQ(world.sonars.at(0).ring.T_base_transducer.size(), c.transducers) << c.name;
+  }
+}
+
+TEST(ShippedWorlds, ThePapersPeriodsAreDriven) {
+  for (const auto& [name, duration_s] :
+       {std::pair{"li2007", 23.6}, {"li2007_slow", 36.6}, {"lip_1", 70.0}, {"lip_2", 70.0}}) {
+    const World world = load_world(shipped(name));
+    const Trajectory way(world.path, world.drive);
+    EXPECT_EQ(way.duration_s(), duration_s) << name;
+    Drive open_end = world.drive;
+    open_end.duration_s.reset();
+    // All of the way is driven, and the robot does not wait for long.
+    EXPECT_NEAR(Trajectory(world.path, open_end).duration_s(), duration_s, 0.1 * duration_s) << name;
+    EXPECT_LE(Trajectory(world.path, open_end).duration_s(), duration_s) << name;
+  }
+  EXPECT_LE(load_world(shipped("zhu")).drive.speed_mps, 0.05);
+}
+
+TEST(ShippedWorlds, WhatChangesIsPassedAgain) {
+  const World world = load_world(shipped("changing"));
+  const Trajectory way(world.path, world.drive);
+  std::set<std::string> events;
+  for (const Change& change : world.changes) {
+    events.insert(change.event);
+    // Two legs of 8 m, that is more than 200 scans.
+    EXPECT_GT(way.duration_s() - change.when_s, 40.0) << change.event;
+  }
+  EXPECT_EQ(events.size(), 5U);
+  EXPECT_GT(world.people, 0);
 }
 
 TEST(ShippedWorlds, TheCurveOfTheCorridorEndIsGentle) {
