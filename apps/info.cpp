@@ -15,6 +15,7 @@
 #include "datasets/acquisitions.hpp"
 #include "datasets/carmen.hpp"
 #include "datasets/map_server.hpp"
+#include "datasets/truth_states.hpp"
 #include "evaluation/trajectory.hpp"
 #include "results/localization_table.hpp"
 
@@ -50,6 +51,7 @@ ordered_json dataset_info(const fs::path& folder) {
   if (!d.odometry.empty()) all.push_back(rows("odometry0", d.odometry));
   if (!d.truth.empty()) all.push_back(rows("groundtruth0", d.truth));
   if (d.truth_map) (void)datasets::read_map(*d.truth_map);  // throws where it cannot be used
+  (void)datasets::read_truth_states(d.folder);
   ordered_json faults = ordered_json::array();
   for (const datasets::SensorLog& log : d.log) {
     if (log.below_range_min + log.above_range_max + log.negative + log.rows_without_value == 0) continue;

@@ -16,6 +16,7 @@
 #include "apps/terminal.hpp"
 #include "datasets/dataset_writer.hpp"
 #include "datasets/map_server.hpp"
+#include "datasets/truth_states.hpp"
 #include "evaluation/simulated_drive.hpp"
 #include "sim/degradation.hpp"
 #include "sim/random_world.hpp"
@@ -45,7 +46,7 @@ sim::World world_of(const SimulateOptions& options) {
   return sim::random_world(options.seed, params);
 }
 
-void write_truth_map(const sim::TruthMap& truth, const fs::path& yaml) {
+datasets::OccupancyMap occupancy_of(const sim::TruthMap& truth) {
   datasets::OccupancyMap map{.width = truth.width,
                              .height = truth.height,
                              .resolution_m = truth.resolution_m,
@@ -58,7 +59,17 @@ void write_truth_map(const sim::TruthMap& truth, const fs::path& yaml) {
                         : cell == sim::TruthMap::Cell::kFree   ? datasets::OccupancyMap::kFree
                                                                : datasets::OccupancyMap::kUnknown);
   }
-  datasets::write_map(map, yaml);
+  return map;
+}
+
+/// What is true at the end; and, where something changed, all that was true before.
+void write_truth(const sim::Simulation& simulation, const fs::path& dataset) {
+  datasets::write_map(occupancy_of(simulation.truth_map()), dataset / "truth_map.yaml");
+  if (simulation.world().changes.empty()) return;
+  std::vector<datasets::TruthState> states;
+  for (const sim::TruthState& state : simulation.truth_states())
+    states.push_back({state.since, occupancy_of(state.map)});
+  datasets::write_truth_states(states, dataset);
 }
 
 sim::Sink sink_into(datasets::DatasetWriter& writer, Progress& progress) {
@@ -94,7 +105,7 @@ void simulate(const sim::World& world, std::uint64_t seed, const fs::path& out, 
   writer.record_events();
   Progress progress("simulating " + world.name);
   simulation.run(sink_into(writer, progress), static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
-  write_truth_map(simulation.truth_map(), writer.working_folder() / "truth_map.yaml");
+  write_truth(simulation, writer.working_folder());
   Interruptible::check();
   writer.finish();
 }

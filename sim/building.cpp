@@ -178,6 +178,7 @@ void Builder::add_door(const Door& door) {
   if (!door.leaf_rad) return;
   const Eigen::Vector2d hinge = spot.foot + half * spot.along + 0.01 * spot.away;
   const Eigen::Vector2d leaf = -std::cos(*door.leaf_rad) * spot.along + std::sin(*door.leaf_rad) * spot.away;
+  world_->leaves.push_back({spot.foot, hinge, -spot.along, spot.away, world_->panels.size()});
   add_panel(hinge, hinge + (door.width_m - 0.02) * leaf, 0.01, door.height_m, material(door.material), false);
 }
 

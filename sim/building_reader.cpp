@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/building.hpp"
 #include "sim/rearrangement.hpp"
 
 namespace credo::sim {
@@ -66,20 +65,6 @@ void read_solids(YamlMap& building, World& world, Builder& builder) {
     placed(map, "at", [&] {
       builder.add_pillar(map.point("at"), positive(map, "radius", 0.25), map.integer_within("sides", 16, 3, 360),
                          map.number("turn", 0.0), map.text("material", "concrete"), map.flag("in_plan", true));
-    });
-    map.close();
-  }
-}
-
-void read_boxes(YamlMap& building, const World& world, Builder& builder) {
-  for (YamlMap& map : building.maps("boxes")) {
-    double z0 = 0.0, z1 = world.ceiling_m;
-    read_heights(map, z0, z1);
-    const std::vector<double> size = map.numbers("size", 2);
-    if (size[0] <= 0.0 || size[1] <= 0.0) map.fail("size", "'size' must be two lengths larger than 0");
-    placed(map, "at", [&] {
-      builder.add_box(map.point("at"), {size[0], size[1]}, map.number("turn", 0.0), z0, z1,
-                      map.text("material", "cabinet"), map.flag("in_plan", false));
     });
     map.close();
   }
@@ -173,6 +158,18 @@ void check_size(const YamlMap& building, const World& world) {
 
 }  // namespace
 
+void read_box(YamlMap& map, const World& world, Builder& builder) {
+  double z0 = 0.0, z1 = world.ceiling_m;
+  read_heights(map, z0, z1);
+  const std::vector<double> size = map.numbers("size", 2);
+  if (size[0] <= 0.0 || size[1] <= 0.0) map.fail("size", "'size' must be two lengths larger than 0");
+  placed(map, "at", [&] {
+    builder.add_box(map.point("at"), {size[0], size[1]}, map.number("turn", 0.0), z0, z1,
+                    map.text("material", "cabinet"), map.flag("in_plan", false));
+  });
+  map.close();
+}
+
 void read_building(YamlMap building, World& world) {
   world.materials = common_materials();
   read_light(building, world);
@@ -186,7 +183,7 @@ void read_building(YamlMap building, World& world) {
                 builder);
   read_fixtures(building, "radiators", {.z0_m = 0.08, .z1_m = 0.9}, builder);
   read_fixtures(building, "shelves", {.width_m = 1.2, .depth_m = 0.3, .z1_m = 1.9, .material = "books"}, builder);
-  read_boxes(building, world, builder);
+  for (YamlMap& map : building.maps("boxes")) read_box(map, world, builder);
   read_moves(building, world);
   building.close();
   check_size(building, world);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "sim/building.hpp"
 #include "sim/world.hpp"
 #include "sim/yaml_map.hpp"
 
@@ -13,5 +14,8 @@ namespace credo::sim {
 /// \throws std::runtime_error  with file and line: for an unknown key, a value out of its range, what finds no wall, a
 ///   building without walls or larger than 500 m
 void read_building(YamlMap building, World& world);
+
+/// One of the `boxes` of a building, put there by `builder`. \throws as read_building
+void read_box(YamlMap& map, const World& world, Builder& builder);
 
 }  // namespace credo::sim

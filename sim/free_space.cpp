@@ -27,7 +27,8 @@ constexpr Neighbour kNeighbours[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {
 
 }  // namespace
 
-FreeSpace::FreeSpace(const World& world, const Body& body, const Eigen::Vector2d& from) : radius_m_(body.radius_m) {
+FreeSpace::FreeSpace(const World& world, const Body& body, const Eigen::Vector2d& from)
+    : radius_m_(body.radius_m), far_m_(std::max(kFar_m, body.radius_m + 2.0 * kHalfDiagonal_m)) {
   Eigen::Vector2d high = from;
   low_ = from;
   for (const Panel& panel : world.panels) {
@@ -38,7 +39,7 @@ FreeSpace::FreeSpace(const World& world, const Body& body, const Eigen::Vector2d
   width_ = static_cast<int>(std::ceil((high.x() + kAroundPanels_m - low_.x()) / kCell_m));
   height_ = static_cast<int>(std::ceil((high.y() + kAroundPanels_m - low_.y()) / kCell_m));
   const std::size_t cells = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-  clearance_.assign(cells, static_cast<float>(kFar_m));
+  clearance_.assign(cells, static_cast<float>(far_m_));
   reached_.assign(cells, false);
   for (const Panel& panel : world.panels)
     if (panel.z0_m < body.height_m && panel.z1_m > 0.0) keep_off(panel);
@@ -48,8 +49,8 @@ FreeSpace::FreeSpace(const World& world, const Body& body, const Eigen::Vector2d
 void FreeSpace::keep_off(const Panel& panel) {
   const Eigen::Vector2d least = panel.a.cwiseMin(panel.b) - low_, most = panel.a.cwiseMax(panel.b) - low_;
   const auto cell = [](double v, int limit) { return std::clamp(static_cast<int>(v / kCell_m), 0, limit - 1); };
-  for (int j = cell(least.y() - kFar_m, height_); j <= cell(most.y() + kFar_m, height_); ++j)
-    for (int i = cell(least.x() - kFar_m, width_); i <= cell(most.x() + kFar_m, width_); ++i) {
+  for (int j = cell(least.y() - far_m_, height_); j <= cell(most.y() + far_m_, height_); ++j)
+    for (int i = cell(least.x() - far_m_, width_); i <= cell(most.x() + far_m_, width_); ++i) {
       const int at = j * width_ + i;
       float& clearance = clearance_[static_cast<std::size_t>(at)];
       clearance = std::min(clearance, static_cast<float>(geometry::distance(centre_of(at), {panel.a, panel.b})));
@@ -109,18 +110,22 @@ bool FreeSpace::is_clear(const Eigen::Vector2d& from, const Eigen::Vector2d& to)
   return true;
 }
 
-/// Dijkstra 1959 over the reached cells; the cells from `from` to `to`, empty where there is no way.
-std::vector<int> FreeSpace::cheapest_cells(int from, int to) const {
+/// Dijkstra 1959 over the reached cells; the cells from `from` to the first goal, empty where there is no way.
+std::vector<int> FreeSpace::cheapest_cells(int from, const std::vector<bool>& is_goal) const {
   std::vector<double> cost(clearance_.size(), std::numeric_limits<double>::infinity());
   std::vector<int> before(clearance_.size(), -1);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   cost[static_cast<std::size_t>(from)] = 0.0;
   open.emplace(0.0, from);
+  int goal = -1;
   while (!open.empty()) {
     const auto [so_far, cell] = open.top();
     open.pop();
-    if (cell == to) break;
+    if (is_goal[static_cast<std::size_t>(cell)]) {
+      goal = cell;
+      break;
+    }
     if (so_far > cost[static_cast<std::size_t>(cell)]) continue;
     const int column = cell % width_, row = cell / width_;
     for (const Neighbour& step : kNeighbours) {
@@ -137,20 +142,17 @@ std::vector<int> FreeSpace::cheapest_cells(int from, int to) const {
     }
   }
   std::vector<int> cells;
-  if (std::isinf(cost[static_cast<std::size_t>(to)])) return cells;
-  for (int cell = to; cell >= 0; cell = before[static_cast<std::size_t>(cell)]) cells.push_back(cell);
+  for (int cell = goal; cell >= 0; cell = before[static_cast<std::size_t>(cell)]) cells.push_back(cell);
   std::reverse(cells.begin(), cells.end());
   return cells;
 }
 
-std::vector<Eigen::Vector2d> FreeSpace::route(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
-  if (!reaches(from) || !reaches(to)) return {};
-  const std::vector<int> cells = cheapest_cells(cell_of(from), cell_of(to));
-  if (cells.empty()) return {};
+/// From each corner straight on to the farthest place in sight.
+std::vector<Eigen::Vector2d> FreeSpace::straightened(const Eigen::Vector2d& from, const std::vector<int>& cells,
+                                                     const Eigen::Vector2d& to) const {
   std::vector<Eigen::Vector2d> way{from};
   for (std::size_t i = 1; i + 1 < cells.size(); ++i) way.push_back(centre_of(cells[i]));
   way.push_back(to);
-  // From each corner straight on to the farthest place in sight.
   std::vector<Eigen::Vector2d> legs{from};
   for (std::size_t at = 0; at + 1 < way.size();) {
     std::size_t next = at + 1;
@@ -159,6 +161,24 @@ std::vector<Eigen::Vector2d> FreeSpace::route(const Eigen::Vector2d& from, const
     at = next;
   }
   return legs;
+}
+
+std::optional<FreeSpace::Goal> FreeSpace::nearest(const Eigen::Vector2d& from,
+                                                  const std::vector<Eigen::Vector2d>& places) const {
+  if (!reaches(from)) return std::nullopt;
+  std::vector<bool> is_goal(reached_.size(), false);
+  for (const Eigen::Vector2d& place : places)
+    if (reaches(place)) is_goal[static_cast<std::size_t>(cell_of(place))] = true;
+  const std::vector<int> cells = cheapest_cells(cell_of(from), is_goal);
+  if (cells.empty()) return std::nullopt;
+  const auto place =
+      std::find_if(places.begin(), places.end(), [&](const Eigen::Vector2d& p) { return cell_of(p) == cells.back(); });
+  return Goal{static_cast<std::size_t>(place - places.begin()), straightened(from, cells, *place)};
+}
+
+std::vector<Eigen::Vector2d> FreeSpace::route(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+  const std::optional<Goal> goal = nearest(from, {to});
+  return goal ? goal->way : std::vector<Eigen::Vector2d>{};
 }
 
 }  // namespace credo::sim

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "geometry/segment.hpp"
+#include "sim/rearrangement.hpp"
 
 namespace credo::sim {
 namespace {
@@ -126,6 +127,32 @@ std::optional<Obstruction> find_place_outside(const World& world, const Trajecto
   return std::nullopt;
 }
 
+/// What the robot touches on a stretch of its way, of all that is there at a moment: what it comes nearest to.
+std::optional<Obstruction> find_touch(const World& world, double seconds, const Segment& stretch) {
+  constexpr double kTouch_m = 1e-6;
+  const double height = height_of_robot(world), radius = world.robot_radius_m;
+  Approach nearest;
+  const Panel* touched = nullptr;
+  for (const Panel& panel : world.panels) {
+    if (!panel.is_there(seconds) || panel.z0_m > height || panel.z1_m <= 0.0) continue;
+    if (far_apart(stretch, {panel.a, panel.b}, radius)) continue;
+    const Approach met = approach(stretch, {panel.a, panel.b});
+    if (met.distance_m >= std::min(radius, nearest.distance_m) - kTouch_m) continue;
+    nearest = met;
+    touched = &panel;
+  }
+  if (touched == nullptr) return std::nullopt;
+  const std::size_t waypoint = waypoint_after(world.path, stretch.b);
+  const std::string thing = "'" + world.materials[static_cast<std::size_t>(touched->material)].name + "' at " +
+                            text_of(nearest.at) + " on its way to waypoint " + text_of(world.path[waypoint].position);
+  if (nearest.distance_m < kTouch_m)
+    return Obstruction{waypoint,
+                       "the robot drives through " + thing + ": lead the path around it, or through an opening"};
+  return Obstruction{waypoint, "the robot, of radius " + metres(radius) + ", comes within " +
+                                   metres(nearest.distance_m) + " of " + thing +
+                                   ": keep the path further away, or make 'robot_radius' smaller"};
+}
+
 }  // namespace
 
 double height_of_robot(const World& world) {
@@ -137,29 +164,12 @@ double height_of_robot(const World& world) {
 }
 
 std::optional<Obstruction> find_obstruction(const World& world, const Trajectory& way) {
-  constexpr double kTouch_m = 1e-6;
   if (auto outside = find_place_outside(world, way)) return outside;
-  const double height = height_of_robot(world), radius = world.robot_radius_m;
-  for (const Segment& stretch : way.stretches()) {
-    Approach nearest;
-    const Panel* touched = nullptr;
-    for (const Panel& panel : world.panels) {
-      if (panel.z0_m > height || panel.z1_m <= 0.0 || far_apart(stretch, {panel.a, panel.b}, radius)) continue;
-      const Approach met = approach(stretch, {panel.a, panel.b});
-      if (met.distance_m >= std::min(radius, nearest.distance_m) - kTouch_m) continue;
-      nearest = met;
-      touched = &panel;
-    }
-    if (touched == nullptr) continue;
-    const std::size_t waypoint = waypoint_after(world.path, stretch.b);
-    const std::string thing = "'" + world.materials[static_cast<std::size_t>(touched->material)].name + "' at " +
-                              text_of(nearest.at) + " on its way to waypoint " + text_of(world.path[waypoint].position);
-    if (nearest.distance_m < kTouch_m)
-      return Obstruction{waypoint,
-                         "the robot drives through " + thing + ": lead the path around it, or through an opening"};
-    return Obstruction{waypoint, "the robot, of radius " + metres(radius) + ", comes within " +
-                                     metres(nearest.distance_m) + " of " + thing +
-                                     ": keep the path further away, or make 'robot_radius' smaller"};
+  const std::vector<double> states = state_times(world);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double until_s = i + 1 < states.size() ? states[i + 1] : std::numeric_limits<double>::infinity();
+    for (const Segment& stretch : way.stretches(states[i], until_s))
+      if (auto touch = find_touch(world, states[i], stretch)) return touch;
   }
   return std::nullopt;
 }

@@ -22,7 +22,7 @@ struct Obstruction {
 };
 
 /// The first place, if any, at which the robot is outside of the building, or its body (a disc of
-/// World::robot_radius_m, as tall as its highest sensor) touches a panel.
+/// World::robot_radius_m, as tall as its highest sensor) touches a panel that is there by then.
 [[nodiscard]] std::optional<Obstruction> find_obstruction(const World& world, const Trajectory& way);
 
 }  // namespace credo::sim

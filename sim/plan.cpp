@@ -37,6 +37,14 @@ class Junctions {
 
 bool spans(const Panel& panel, double height_m) { return panel.z0_m <= height_m && height_m <= panel.z1_m; }
 
+std::vector<double> heights_of_sensors(const World& world) {
+  std::vector<double> heights;
+  for (const RangeFinderSetup& setup : world.range_finders) heights.push_back(setup.finder.height_m);
+  for (const SonarSetup& setup : world.sonars) heights.push_back(setup.ring.height_m);
+  if (heights.empty()) heights.push_back(world.camera.value().camera.height_m);
+  return heights;
+}
+
 TruthMap empty_map(const World& world, double resolution_m) {
   if (!(resolution_m > 0.0)) throw std::invalid_argument("the resolution of the map must be larger than 0");
   Eigen::Vector2d low = world.panels.front().a, high = low;
@@ -105,10 +113,11 @@ geometry::FloorPlan draw_floor_plan(const World& world, double height_m, std::ui
   return plan;
 }
 
-TruthMap draw_truth_map(const World& world, const std::vector<double>& heights_m, double resolution_m) {
+TruthMap draw_truth_map(const World& world, double resolution_m) {
+  const std::vector<double> heights = heights_of_sensors(world);
   TruthMap map = empty_map(world, resolution_m);
   for (const Panel& panel : world.panels)
-    if (std::any_of(heights_m.begin(), heights_m.end(), [&](double height) { return spans(panel, height); }))
+    if (std::any_of(heights.begin(), heights.end(), [&](double height) { return spans(panel, height); }))
       draw_line(panel, map);
   for (const Waypoint& waypoint : world.path) flood(waypoint.position, map);
   return map;

@@ -3,6 +3,9 @@
 
 #include "sim/sensor_reader.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -42,6 +45,18 @@ CameraSetup read_camera(YamlMap map) {
   return setup;
 }
 
+/// Beams all around are one step short of a full turn; others go from edge to edge, straight ahead in the middle.
+void read_fan(YamlMap& map, sensors::RangeFinder& finder) {
+  constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+  const auto goes_around = [](double field) { return field > kTurn_rad - 1e-3; };
+  const double turn = finder.angle_increment_rad * finder.count, edge_to_edge = turn - finder.angle_increment_rad;
+  const double field = map.number_within("field", goes_around(turn) ? turn : edge_to_edge, 0.01, kTurn_rad + 1e-3);
+  finder.count = map.integer_within("count", finder.count, 1, 100'000);
+  finder.angle_increment_rad =
+      goes_around(field) ? std::min(field, kTurn_rad) / finder.count : field / std::max(finder.count - 1, 1);
+  finder.angle_min_rad = goes_around(field) ? -std::numbers::pi : -0.5 * field;
+}
+
 RangeFinderSetup read_range_finder(YamlMap& map) {
   RangeFinderSetup setup;
   placed(map, "preset", [&] { setup = range_finder_preset(map.text("preset", "opensimple")); });
@@ -50,9 +65,7 @@ RangeFinderSetup read_range_finder(YamlMap& map) {
   finder.height_m = not_negative(map, "height", finder.height_m);
   finder.noise.sigma_0_m = positive(map, "sigma_0", finder.noise.sigma_0_m);
   finder.noise.k_per_m = not_negative(map, "k", finder.noise.k_per_m);
-  const double field = finder.angle_increment_rad * finder.count;
-  finder.count = map.integer_within("count", finder.count, 1, 100'000);
-  finder.angle_increment_rad = field / finder.count;
+  read_fan(map, finder);
   finder.range_min_m = not_negative(map, "range_min", finder.range_min_m);
   finder.range_max_m = positive(map, "range_max", finder.range_max_m);
   finder.scan_time_s = map.number_within("scan_time", finder.scan_time_s, 0.0, 60.0);
@@ -66,9 +79,30 @@ RangeFinderSetup read_range_finder(YamlMap& map) {
   return setup;
 }
 
+/// Transducers of its own fire all at once unless `firing_times` says otherwise.
+void read_transducers(YamlMap& map, sensors::SonarRing& ring) {
+  if (map.has("transducers")) {
+    ring.T_base_transducer.clear();
+    ring.firing_times_s.clear();
+    for (const YAML::Node& item : map.child("transducers")) {
+      const std::vector<double> p = map.numbers_of(item, 3, "transducers");
+      ring.T_base_transducer.push_back({p[0], p[1], p[2]});
+    }
+    if (ring.T_base_transducer.empty())
+      map.fail("transducers", "'transducers' must be a list of at least one [x, y, theta]");
+  }
+  if (!map.has("firing_times")) return;
+  ring.firing_times_s = map.numbers("firing_times", ring.T_base_transducer.size());
+  constexpr double kLongest_s = 60.0;
+  for (const double time : ring.firing_times_s)
+    if (std::abs(time) > kLongest_s)
+      map.fail("firing_times", "'firing_times' must be within 60 s of the sweep's timestamp");
+}
+
 SonarSetup read_sonar(YamlMap& map) {
   SonarSetup setup;
   placed(map, "preset", [&] { setup = sonar_preset(map.text("preset", "pioneer-16")); });
+  read_transducers(map, setup.ring);
   setup.ring.height_m = not_negative(map, "height", setup.ring.height_m);
   setup.ring.beam_width_rad = positive(map, "beam_width", setup.ring.beam_width_rad);
   setup.ring.range_min_m = not_negative(map, "range_min", setup.ring.range_min_m);

@@ -11,13 +11,12 @@
 #include "sim/clutter.hpp"
 #include "sim/crowd.hpp"
 #include "sim/failures.hpp"
+#include "sim/instruments.hpp"
 #include "sim/odometry_simulator.hpp"
-#include "sim/omni_renderer.hpp"
 #include "sim/passage.hpp"
 #include "sim/plan.hpp"
 #include "sim/random.hpp"
-#include "sim/range_simulator.hpp"
-#include "sim/sonar_simulator.hpp"
+#include "sim/rearrangement.hpp"
 #include "sim/together.hpp"
 #include "sim/trajectory.hpp"
 
@@ -96,6 +95,7 @@ std::vector<Event> all_events(const World& world, const Trajectory& way) {
   std::vector<Event> events;
   if (world.people > 0) events.push_back({0.0, "people"});
   for (const double when : way.carried()) events.push_back({when, kKidnapped});
+  for (const Change& change : world.changes) events.push_back({change.when_s, change.event});
   for (Event& event : failure_events(world))
     if (event.seconds < way.duration_s()) events.push_back(std::move(event));
   std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.seconds < b.seconds; });
@@ -201,9 +201,7 @@ struct Simulation::Parts {
   Crowd crowd;
   std::vector<Event> events;
   std::vector<Reading> readings;
-  std::optional<OmniRenderer> renderer;
-  std::vector<RangeSimulator> ranges;
-  std::vector<SonarSimulator> sonars;
+  InstrumentsOverTime instruments;
 
   Parts(World the_world, std::uint64_t the_seed)
       : world(complete(checked(std::move(the_world)), the_seed)),
@@ -214,22 +212,16 @@ struct Simulation::Parts {
         start(told_start(world, way.pose_at(0.0), seed)),
         crowd(world, way, seed),
         events(all_events(world, way)),
-        readings(schedule_all(world, way, events, seed)) {
-    if (world.camera) renderer.emplace(world, seed);
-    for (std::size_t i = 0; i < world.range_finders.size(); ++i)
-      ranges.emplace_back(world, world.range_finders[i], static_cast<int>(i), seed);
-    for (std::size_t i = 0; i < world.sonars.size(); ++i)
-      sonars.emplace_back(world, world.sonars[i], static_cast<int>(i), seed);
-  }
-  Parts(const Parts&) = delete;  // the simulators refer to the world
-  Parts& operator=(const Parts&) = delete;
+        readings(schedule_all(world, way, events, seed)),
+        instruments(world, seed) {}
 
   struct Picture {
     cv::Mat pixels;
     std::vector<TrueVertical> verticals;
   };
   [[nodiscard]] std::vector<geometry::Pose2> exposures(double seconds) const;
-  [[nodiscard]] Picture picture(const Reading& reading, bool verticals, OmniRenderer::Workspace& workspace) const;
+  [[nodiscard]] Picture picture(const Reading& reading, bool verticals, const OmniRenderer& renderer,
+                                OmniRenderer::Workspace& workspace) const;
   [[nodiscard]] std::vector<Picture> render(std::span<const Reading> images, int threads, bool verticals) const;
   [[nodiscard]] std::function<std::vector<Disc>(double)> people_at(double height_m, double seconds) const;
   void carry(double when_s, Wheels& wheels) const;
@@ -252,6 +244,7 @@ std::vector<geometry::Pose2> Simulation::Parts::exposures(double seconds) const 
 
 /// What the camera has in view, in the condition that it is in.
 Simulation::Parts::Picture Simulation::Parts::picture(const Reading& reading, bool verticals,
+                                                      const OmniRenderer& renderer,
                                                       OmniRenderer::Workspace& workspace) const {
   const double seconds = seconds_of(reading.taken);
   const Condition condition = condition_of(world, "camera0", seconds);
@@ -259,16 +252,16 @@ Simulation::Parts::Picture Simulation::Parts::picture(const Reading& reading, bo
   std::vector<geometry::Pose2> poses = exposures(seconds);
   if (condition.turn_rad != 0.0) {
     // An image that is turned one way is that of a camera turned the other way.
-    const geometry::Pose2& T_base_camera = renderer->T_base_camera();
+    const geometry::Pose2& T_base_camera = renderer.T_base_camera();
     const geometry::Pose2 turned =
         T_base_camera * geometry::Pose2{0.0, 0.0, -condition.turn_rad} * T_base_camera.inverse();
     for (geometry::Pose2& pose : poses) pose = pose * turned;
   }
   Picture picture;
-  picture.pixels = renderer->render(
-      poses, reading.index, workspace,
-      {.light = condition.blind ? 0.0 : condition.light, .noise = condition.noise, .passing = passing});
-  if (verticals) picture.verticals = renderer->true_verticals(way.pose_at(seconds), workspace, passing);
+  picture.pixels =
+      renderer.render(poses, reading.index, workspace,
+                      {.light = condition.blind ? 0.0 : condition.light, .noise = condition.noise, .passing = passing});
+  if (verticals) picture.verticals = renderer.true_verticals(way.pose_at(seconds), workspace, passing);
   return picture;
 }
 
@@ -278,8 +271,14 @@ std::vector<Simulation::Parts::Picture> Simulation::Parts::render(std::span<cons
                                                                   bool verticals) const {
   std::vector<Picture> pictures(images.size());
   run_together(threads, images.size(), [&](NextIndex& next) {
-    OmniRenderer::Workspace workspace(world);
-    while (const auto i = next()) pictures[*i] = picture(images[*i], verticals, workspace);
+    const Instruments* before = nullptr;
+    std::optional<OmniRenderer::Workspace> workspace;
+    while (const auto i = next()) {
+      const Instruments& now = instruments.at(seconds_of(images[*i].taken));
+      if (&now != before) workspace.emplace(now.world);
+      before = &now;
+      pictures[*i] = picture(images[*i], verticals, *now.renderer, *workspace);
+    }
   });
   return pictures;
 }
@@ -303,6 +302,7 @@ void Simulation::Parts::deliver(const Reading& reading, Wheels& wheels, const Si
   const auto pose = [&](double later) { return way.pose_at(seconds + later); };
   const auto sensor = static_cast<std::size_t>(reading.sensor);
   const Condition condition = condition_of(world, sensor_name(reading.kind, reading.sensor), seconds_of(reading.time));
+  const Instruments& now = instruments.at(seconds);
   switch (reading.kind) {
     case Reading::Kind::kEvent:
       if (events[reading.index].name == kKidnapped) carry(events[reading.index].seconds, wheels);
@@ -310,13 +310,13 @@ void Simulation::Parts::deliver(const Reading& reading, Wheels& wheels, const Si
       break;
     case Reading::Kind::kScan:
       if (sink.scan && !condition.blind)
-        sink.scan(ranges[sensor].scan(reading.time, pose, reading.index,
-                                      people_at(world.range_finders[sensor].finder.height_m, seconds), condition));
+        sink.scan(now.ranges[sensor].scan(reading.time, pose, reading.index,
+                                          people_at(world.range_finders[sensor].finder.height_m, seconds), condition));
       break;
     case Reading::Kind::kSonar:
       if (sink.sonar)
-        sink.sonar(sonars[sensor].sweep(reading.time, pose, reading.index,
-                                        people_at(world.sonars[sensor].ring.height_m, seconds)));
+        sink.sonar(now.sonars[sensor].sweep(reading.time, pose, reading.index,
+                                            people_at(world.sonars[sensor].ring.height_m, seconds)));
       break;
     case Reading::Kind::kOdometry: {
       const geometry::Pose2 here = way.pose_at(seconds_of(reading.time));
@@ -345,15 +345,18 @@ const geometry::FloorPlan& Simulation::floor_plan() const { return parts_->plan;
 const std::optional<geometry::PoseEstimate>& Simulation::initial_pose() const { return parts_->start; }
 
 std::string Simulation::acquisition_sensor() const {
-  return parts_->renderer ? "camera0" : parts_->ranges.empty() ? "sonar0" : "range0";
+  return parts_->world.camera ? "camera0" : parts_->world.range_finders.empty() ? "sonar0" : "range0";
 }
 
 TruthMap Simulation::truth_map(double resolution_m) const {
-  std::vector<double> heights;
-  for (const RangeFinderSetup& setup : parts_->world.range_finders) heights.push_back(setup.finder.height_m);
-  for (const SonarSetup& setup : parts_->world.sonars) heights.push_back(setup.ring.height_m);
-  if (heights.empty()) heights.push_back(parts_->world.camera->camera.height_m);
-  return draw_truth_map(parts_->world, heights, resolution_m);
+  return draw_truth_map(world_at(parts_->world, parts_->way.duration_s()), resolution_m);
+}
+
+std::vector<TruthState> Simulation::truth_states(double resolution_m) const {
+  std::vector<TruthState> states;
+  for (const double seconds : state_times(parts_->world))
+    states.push_back({stamp(seconds), draw_truth_map(world_at(parts_->world, seconds), resolution_m)});
+  return states;
 }
 
 void Simulation::run(const Sink& sink, int threads) const {

@@ -42,9 +42,10 @@ struct Sink {
   std::function<void(double)> progress;
 };
 
-/// The true occupancy at the heights of the range and sonar sensors.
+/// The true occupancy at the heights of the range and sonar sensors: surfaces are occupied. What lies behind them is
+/// unknown, be it the outside or the inside of what is solid. Cells begin at whole multiples of the resolution.
 struct TruthMap {
-  enum class Cell : std::uint8_t { kFree, kOccupied, kUnknown };  ///< unknown: outside of where a robot can look
+  enum class Cell : std::uint8_t { kFree, kOccupied, kUnknown };
 
   double resolution_m = 0.05;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< the lower left corner of cell (0, 0), in the map frame
@@ -55,6 +56,12 @@ struct TruthMap {
   [[nodiscard]] Cell at(int column, int row) const {
     return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
   }
+};
+
+/// What is true from a moment on, until the next change.
+struct TruthState {
+  sensors::Timestamp since = 0;
+  TruthMap map;
 };
 
 /// A world played once. All randomness comes from the seed: the same world and seed give the same bytes, whatever the
@@ -77,7 +84,10 @@ class Simulation {
   [[nodiscard]] const std::optional<geometry::PoseEstimate>& initial_pose() const;
   /// The sensor whose timestamps define the acquisitions: `camera0`, `range0` or `sonar0`.
   [[nodiscard]] std::string acquisition_sensor() const;
+  /// At the end of the drive.
   [[nodiscard]] TruthMap truth_map(double resolution_m = 0.05) const;
+  /// From the start on, and from each change on; all of the same cells.
+  [[nodiscard]] std::vector<TruthState> truth_states(double resolution_m = 0.05) const;
 
   /// Plays the world from the start into the sink. Repeated calls give the same again.
   /// \param threads  for rendering images, at least 1.

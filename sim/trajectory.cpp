@@ -63,6 +63,16 @@ Trajectory::Trajectory(const std::vector<Waypoint>& path, const Drive& drive) {
     if (i > 0) carried_.push_back(duration_s_);
     drive_route(route, drive);
   }
+  if (drive.duration_s) end_at(*drive.duration_s);
+}
+
+void Trajectory::end_at(double seconds) {
+  if (seconds > duration_s_) rest(seconds - duration_s_);
+  const auto comes_later = [seconds](double time) { return time >= seconds; };
+  std::erase_if(pieces_, [&](const Piece& piece) { return comes_later(piece.begin_s); });
+  std::erase_if(stops_, comes_later);
+  std::erase_if(carried_, comes_later);
+  duration_s_ = seconds;
 }
 
 /// Stop and go: turns on the spot at the waypoints, stops every step. Continuous: rounds the corners off.
@@ -143,6 +153,12 @@ void Trajectory::add(double length_m, double turn_rad, double duration_s, double
   duration_s_ += duration_s;
 }
 
+/// The share of the piece that is driven by then, 0 before and 1 after it.
+double Trajectory::share_at(const Piece& piece, double seconds) {
+  const double time = std::clamp((seconds - piece.begin_s) / piece.duration_s, 0.0, 1.0);
+  return progress(time, piece.ramp_s / piece.duration_s);
+}
+
 /// Where the robot is after a share of the piece: on an arc, or on the spot.
 geometry::Pose2 Trajectory::at_end(const Piece& piece, double share) {
   const double turn = piece.turn_rad * share, length = piece.length_m * share;
@@ -161,17 +177,19 @@ bool continues(const geometry::Segment& stretch, const Eigen::Vector2d& to) {
 
 }  // namespace
 
-std::vector<geometry::Segment> Trajectory::stretches() const {
+std::vector<geometry::Segment> Trajectory::stretches(double from_s, double to_s) const {
   constexpr double kLongestChord_rad = 0.05;
   std::vector<geometry::Segment> stretches;
   for (const Piece& piece : pieces_) {
-    Eigen::Vector2d from = piece.start.translation();
+    if (piece.begin_s + piece.duration_s < from_s || piece.begin_s > to_s) continue;
+    const double begin = share_at(piece, from_s), end = share_at(piece, to_s);
+    Eigen::Vector2d from = at_end(piece, begin).translation();
     const bool set_down = stretches.empty() || (stretches.back().b - from).norm() > 1e-6;
     if (set_down) stretches.push_back({from, from});
     if (piece.length_m == 0.0) continue;
     const int chords = std::max(1, static_cast<int>(std::ceil(std::abs(piece.turn_rad) / kLongestChord_rad)));
     for (int i = 1; i <= chords; ++i) {
-      const Eigen::Vector2d to = at_end(piece, static_cast<double>(i) / chords).translation();
+      const Eigen::Vector2d to = at_end(piece, begin + (end - begin) * (static_cast<double>(i) / chords)).translation();
       if (continues(stretches.back(), to))
         stretches.back().b = to;
       else
@@ -186,8 +204,7 @@ geometry::Pose2 Trajectory::pose_at(double seconds) const {
   const auto after = std::upper_bound(pieces_.begin() + 1, pieces_.end(), seconds,
                                       [](double t, const Piece& piece) { return t < piece.begin_s; });
   const Piece& piece = *(after - 1);
-  const double time = std::clamp((seconds - piece.begin_s) / piece.duration_s, 0.0, 1.0);
-  return at_end(piece, progress(time, piece.ramp_s / piece.duration_s));
+  return at_end(piece, share_at(piece, seconds));
 }
 
 }  // namespace credo::sim

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "geometry/pose.hpp"
@@ -24,9 +25,10 @@ class Trajectory {
   [[nodiscard]] const std::vector<double>& stops() const { return stops_; }
   /// When the robot was carried away [s].
   [[nodiscard]] const std::vector<double>& carried() const { return carried_; }
-  /// What is driven over, without the times: straight lines, and chords of curves that are at most 0.05 rad long. A
-  /// place where the robot is set down is a stretch of no length.
-  [[nodiscard]] std::vector<geometry::Segment> stretches() const;
+  /// What is driven over in a part of the drive, without the times: straight lines, and chords of curves that are at
+  /// most 0.05 rad long. A place where the robot is at first, or is set down, is a stretch of no length.
+  [[nodiscard]] std::vector<geometry::Segment> stretches(double from_s = 0.0,
+                                                         double to_s = std::numeric_limits<double>::infinity()) const;
 
  private:
   /// Moves `length` along a circle of `curvature` (0 = straight; or turns by `turn` on the spot) from `start`.
@@ -43,6 +45,8 @@ class Trajectory {
   void drive_route(const std::vector<Eigen::Vector2d>& route, const Drive& drive);
   void drive_steps(double length_m, const Drive& drive);
   void add(double length_m, double turn_rad, double duration_s, double ramp_s);
+  void end_at(double seconds);
+  [[nodiscard]] static double share_at(const Piece& piece, double seconds);
   [[nodiscard]] static geometry::Pose2 at_end(const Piece& piece, double share);
 
   std::vector<Piece> pieces_;

@@ -37,7 +37,7 @@ struct Material {
   double sonar_critical_rad = 0.24;  ///< incidence beyond which no echo comes back: smooth 0.24, rough 0.7
 };
 
-/// A vertical rectangle, opaque, seen from either side.
+/// A vertical rectangle, opaque, seen from either side, and there for all or a part of the drive.
 struct Panel {
   Eigen::Vector2d a = Eigen::Vector2d::Zero();
   Eigen::Vector2d b = Eigen::Vector2d::Zero();
@@ -45,6 +45,25 @@ struct Panel {
   double z1_m = 0.0;
   int material = 0;      ///< index into World::materials
   bool in_plan = false;  ///< the floor plan shows it
+  double from_s = 0.0;   ///< of the drive
+  double to_s = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool is_there(double seconds) const { return from_s <= seconds && seconds < to_s; }
+};
+
+/// The leaf of an opening, which can be turned.
+struct DoorLeaf {
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< the middle of the opening
+  Eigen::Vector2d hinge = Eigen::Vector2d::Zero();
+  Eigen::Vector2d shut = Eigen::Vector2d::UnitX();  ///< unit direction from the hinge when shut
+  Eigen::Vector2d away = Eigen::Vector2d::UnitY();  ///< unit direction into which it opens
+  std::size_t panel = 0;                            ///< index into World::panels: the last place of the leaf
+};
+
+/// Something that comes, goes or moves during the drive; panels say what (Panel::from_s, Panel::to_s).
+struct Change {
+  double when_s = 0.0;  ///< from the start
+  std::string event;    ///< obstacle_added, obstacle_moved, obstacle_removed, door_opened, door_closed
 };
 
 /// Lamps flush with the ceiling, on a square grid through the origin.
@@ -64,6 +83,8 @@ struct Drive {
   double acceleration_mps2 = 0.5;
   double turn_speed_radps = 0.7;  ///< when turning on the spot
   double turn_radius_m = 0.5;     ///< of the curves when driving continuously
+  /// When the recording ends, wherever the robot is by then; it waits at the end of its path. Without, it ends there.
+  std::optional<double> duration_s = std::nullopt;
 };
 
 struct Waypoint {
@@ -152,6 +173,8 @@ struct World {
   /// Outlines of what is indoors; without any, all within the rectangle around the panels is.
   std::vector<std::vector<Eigen::Vector2d>> areas;
   std::vector<Eigen::Vector2d> marks;  ///< vertical lines without relief that the floor plan shows (door frames)
+  std::vector<DoorLeaf> leaves;
+  std::vector<Change> changes;  ///< by time
   CeilingLamps lamps;
   double floor_albedo = 0.45;
   double floor_tile_m = 0.0;         ///< 0: no tiles

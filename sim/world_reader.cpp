@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "sim/building_reader.hpp"
+#include "sim/change_reader.hpp"
 #include "sim/failures.hpp"
+#include "sim/lanes.hpp"
 #include "sim/passage.hpp"
 #include "sim/presets.hpp"
 #include "sim/sensor_reader.hpp"
@@ -21,7 +23,8 @@
 namespace credo::sim {
 namespace {
 
-void read_drive(YamlMap map, Drive& drive) {
+Drive read_drive(YamlMap map) {
+  Drive drive;
   const std::string mode = map.text("mode", "stop_and_go");
   if (mode != "stop_and_go" && mode != "continuous") map.fail("mode", "'mode' must be stop_and_go or continuous");
   drive.mode = mode == "continuous" ? Drive::Mode::kContinuous : Drive::Mode::kStopAndGo;
@@ -31,20 +34,33 @@ void read_drive(YamlMap map, Drive& drive) {
   drive.acceleration_mps2 = positive(map, "acceleration", drive.acceleration_mps2, 0.01);
   drive.turn_speed_radps = positive(map, "turn_speed", drive.turn_speed_radps, 0.01);
   drive.turn_radius_m = positive(map, "turn_radius", drive.turn_radius_m);
+  if (map.has("duration")) drive.duration_s = map.number_within("duration", 0.0, 0.01, YamlMap::kLargest);
   map.close();
+  return drive;
 }
 
-/// Where each waypoint stands: "file:line".
-using PathSource = std::vector<std::string>;
+/// What can be read only where all else is known; a world that extends another may replace it as a whole.
+struct Pending {
+  std::vector<std::string> waypoints;  ///< "file:line" of each
+  std::optional<YamlMap> lanes;        ///< instead of waypoints
+  std::vector<YamlMap> changes;
+};
 
-/// Waypoints [x, y], or {carried_to: [x, y], turn: rad} where the robot is set down.
-PathSource read_path(YamlMap& top, World& world, const std::string& file) {
-  PathSource source;
+/// Waypoints [x, y], or {carried_to: [x, y], turn: rad} where the robot is set down; or {lanes: ...}.
+void read_path(YamlMap& top, World& world, const std::string& file, Pending& pending) {
+  world.path.clear();
+  pending.waypoints.clear();
+  pending.lanes.reset();
   const YAML::Node path = top.child("path");
+  if (path.IsDefined() && path.IsMap()) {
+    YamlMap map(path, file, "the path");
+    pending.lanes = map.map("lanes");
+    return map.close();
+  }
   if (!path.IsDefined() || !path.IsSequence() || path.size() < 2)
-    top.fail("path", "'path' must be a list of at least two waypoints [x, y]");
+    top.fail("path", "'path' must be a list of at least two waypoints [x, y], or {lanes: ...}");
   for (const YAML::Node& item : path) {
-    source.push_back(file + ":" + std::to_string(item.Mark().line + 1));
+    pending.waypoints.push_back(file + ":" + std::to_string(item.Mark().line + 1));
     if (item.IsSequence()) {
       const std::vector<double> p = top.numbers_of(item, 2, "path");
       world.path.push_back({{p[0], p[1]}, false});
@@ -58,7 +74,6 @@ PathSource read_path(YamlMap& top, World& world, const std::string& file) {
   }
   if (world.path.front().carried_here)
     top.fail("path", "the first waypoint is where the robot starts: it cannot be carried there");
-  return source;
 }
 
 void read_nuisances(YamlMap map, Nuisances& nuisances) {
@@ -118,13 +133,13 @@ YAML::Node load_file(const std::filesystem::path& file) {
   }
 }
 
-void read_world(const std::filesystem::path& file, World& world, PathSource& path, std::set<std::string>& seen) {
+void read_world(const std::filesystem::path& file, World& world, Pending& pending, std::set<std::string>& seen) {
   if (!seen.insert(std::filesystem::weakly_canonical(file).string()).second)
     throw std::runtime_error(file.string() + ":1: a world cannot extend itself");
   YamlMap top(load_file(file), file.string(), "the world");
   if (top.text("format", "") != "credo-world/1") top.fail("format", "'format' must be credo-world/1");
   const bool extends = top.has("extends");
-  if (extends) read_world(file.parent_path() / top.text("extends", ""), world, path, seen);
+  if (extends) read_world(file.parent_path() / top.text("extends", ""), world, pending, seen);
   world.name = top.text("name", file.stem().string());
   world.description = top.text("description", world.description);
   if (!extends || top.has("building")) {
@@ -132,17 +147,16 @@ void read_world(const std::filesystem::path& file, World& world, PathSource& pat
     world.only_planned.clear();
     world.marks.clear();
     world.areas.clear();
+    world.leaves.clear();
     read_building(top.map("building"), world);
   }
   world.plan_uncertainty_m = not_negative(top, "plan_uncertainty", world.plan_uncertainty_m);
   world.clutter_share = share(top, "clutter", world.clutter_share);
   world.people = top.integer_within("people", world.people, 0, 100);
   world.robot_radius_m = positive(top, "robot_radius", world.robot_radius_m);
-  if (top.has("drive")) read_drive(top.map("drive"), world.drive);
-  if (!extends || top.has("path")) {
-    world.path.clear();
-    path = read_path(top, world, file.string());
-  }
+  if (top.has("drive")) world.drive = read_drive(top.map("drive"));
+  if (!extends || top.has("path")) read_path(top, world, file.string(), pending);
+  if (top.has("changes")) pending.changes = top.maps("changes");
   world.initial_pose_known = top.flag("initial_pose_known", world.initial_pose_known);
   if (top.has("initial_pose_sigma")) {
     const std::vector<double> sigma = top.numbers("initial_pose_sigma", 3);
@@ -168,24 +182,50 @@ void read_world(const std::filesystem::path& file, World& world, PathSource& pat
   top.close();
 }
 
-void check_path(const World& world, const PathSource& path) {
+std::vector<Waypoint> read_lanes(YamlMap map, const World& world) {
+  Lanes lanes;
+  lanes.start = map.point("start");
+  lanes.heading_rad = map.number("heading", lanes.heading_rad);
+  lanes.spacing_m = positive(map, "spacing", lanes.spacing_m, 0.1);
+  lanes.margin_m = not_negative(map, "margin", lanes.margin_m);
+  map.close();
+  std::vector<Waypoint> path;
+  placed(map, "start", [&] { path = sweep_in_lanes(world, lanes); });
+  return path;
+}
+
+void check_path(const World& world, const Pending& pending) {
   std::optional<Obstruction> obstruction;
   try {
     obstruction = find_obstruction(world, Trajectory(world.path, world.drive));
   } catch (const std::invalid_argument& error) {
     obstruction = {0, error.what()};
   }
-  if (obstruction) throw std::runtime_error(path[obstruction->waypoint] + ": " + obstruction->what);
+  if (!obstruction) return;
+  if (pending.lanes) pending.lanes->fail("start", obstruction->what + ", or the 'margin' of the lanes larger");
+  throw std::runtime_error(pending.waypoints[obstruction->waypoint] + ": " + obstruction->what);
+}
+
+/// What changes after the drive is over, nobody sees.
+void check_changes(const World& world, const Pending& pending) {
+  const double duration_s = Trajectory(world.path, world.drive).duration_s();
+  for (std::size_t i = 0; i < world.changes.size(); ++i)
+    if (world.changes[i].when_s >= duration_s)
+      pending.changes[i].fail("when",
+                              "the drive is over after " + std::to_string(duration_s) + " s: let things change before");
 }
 
 }  // namespace
 
 World load_world(const std::filesystem::path& file) {
   World world;
-  PathSource path;
+  Pending pending;
   std::set<std::string> seen;
-  read_world(file, world, path, seen);
-  check_path(world, path);
+  read_world(file, world, pending, seen);
+  read_changes(pending.changes, world);
+  if (pending.lanes) world.path = read_lanes(*pending.lanes, world);
+  check_path(world, pending);
+  check_changes(world, pending);
   state_accuracy(world);
   return world;
 }

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "sim/random.hpp"
+#include "sim/rearrangement.hpp"
 #include "sim/together.hpp"
 #include "tests/sim/test_worlds.hpp"
 
@@ -199,6 +200,90 @@ TEST(Simulation, TheTruthMapHasWallsRoomsAndTheOutside) {
   EXPECT_EQ(at(3.0, -0.3), TruthMap::Cell::kUnknown);
   EXPECT_EQ(at(3.6, 2.06), TruthMap::Cell::kUnknown);  // inside of a wall
   EXPECT_THROW((void)simulation.truth_map(0.0), std::invalid_argument);
+}
+
+/// A robot that stands 3 m before a closed door with a leaf, behind which is a small room; at 20 s the door opens. A
+/// box behind the robot is there from 10 to 30 s.
+World before_a_door() {
+  World world = ideal_room();
+  world.panels.clear();
+  Builder builder(world);
+  builder.add_walls({{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}, true, "plain", true);
+  builder.add_walls({{4.2, -1}, {6, -1}, {6, 1}, {4.2, 1}}, true, "plain", true);
+  builder.add_door({.at = {4.0, 0.0}, .kind = Door::Kind::kOpening, .width_m = 1.6, .leaf_rad = 0.0});
+  turn_leaf(world, 20.0, {4.0, 0.0}, 1.6);
+  const std::size_t first = world.panels.size();
+  builder.add_box({-2.0, 0.0}, {0.5, 2.0}, 0.0, 0.0, 2.6, "concrete", false);
+  appear(world, 10.0, first);
+  std::swap(world.changes[0], world.changes[1]);
+  take_away(world, 30.0, {-2.0, 0.0});
+  world.path = {{{0.9, 0.0}}, {{1.0, 0.0}}};
+  world.drive = {.pause_s = 20.0};
+  world.drive.duration_s = 40.0;
+  return world;
+}
+
+TEST(Simulation, ChangesAreSeenByEverySensorFromTheirTimeOn) {
+  World world = before_a_door();
+  world.camera->rate_hz = 0.5;
+  RangeFinderSetup finder = range_finder_preset("opensimple");
+  finder.finder.range_max_m = 8.0;
+  finder.faintest = 0.0;
+  finder.rate_hz = 5.0;
+  world.range_finders = {finder};
+  world.sonars = {sonar_preset("pioneer-16")};
+  world.sonars[0].cross_talk_share = 0.0;
+  const Simulation simulation(world, 3);
+  const auto seconds_of = [start = simulation.truth_states().front().since](Timestamp time) {
+    return sensors::seconds_between(start, time);
+  };
+  std::map<double, float> ahead, behind;
+  std::map<double, std::size_t> edges;
+  std::vector<std::string> events;
+  Sink sink;
+  sink.scan = [&](const sensors::RangeScan& scan) {
+    if (std::isfinite(scan.ranges_m[90])) ahead[seconds_of(scan.time)] = scan.ranges_m[90];
+  };
+  sink.sonar = [&](const sensors::SonarSweep& sweep) { behind[seconds_of(sweep.time)] = sweep.ranges_m[11]; };
+  sink.verticals = [&](Timestamp time, std::span<const TrueVertical> v) { edges[seconds_of(time)] = v.size(); };
+  sink.event = [&](Timestamp, std::string_view event) { events.emplace_back(event); };
+  simulation.run(sink);
+  EXPECT_EQ(events, (std::vector<std::string>{"obstacle_added", "door_opened", "obstacle_removed"}));
+  int outliers = 0;
+  for (const auto& [when, range] : ahead) outliers += std::abs(range - (when < 20.0 ? 3.1F : 5.1F)) > 0.5F;
+  EXPECT_LT(outliers, 8) << "of " << ahead.size();
+  for (const auto& [when, range] : behind)
+    EXPECT_EQ(range < 2.9F, when >= 10.0 && when < 30.0) << "at " << when << " s: " << range;
+  EXPECT_LT(edges.begin()->second, edges.lower_bound(12.0)->second);
+  EXPECT_GT(edges.lower_bound(21.0)->second, edges.rbegin()->second);
+}
+
+TEST(Simulation, TheTruthIsToldForEveryStateOfTheWorld) {
+  World world = before_a_door();
+  world.camera.reset();
+  world.range_finders = {range_finder_preset("opensimple")};
+  const Simulation simulation(world, 3);
+  const std::vector<TruthState> states = simulation.truth_states(0.1);
+  ASSERT_EQ(states.size(), 4U);
+  const auto at = [&](const TruthMap& map, double x, double y) {
+    return map.at(static_cast<int>((x - map.origin.x()) / map.resolution_m),
+                  static_cast<int>((y - map.origin.y()) / map.resolution_m));
+  };
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    EXPECT_DOUBLE_EQ(sensors::seconds_between(states[0].since, states[i].since), 10.0 * static_cast<double>(i));
+    const bool box = i == 1 || i == 2, open = i >= 2;
+    EXPECT_EQ(at(states[i].map, -1.76, 0.05) == TruthMap::Cell::kOccupied, box) << i;
+    EXPECT_EQ(at(states[i].map, -2.0, 0.05) == TruthMap::Cell::kUnknown, box) << i;  // inside of what is solid
+    EXPECT_EQ(at(states[i].map, 5.0, 0.05) == TruthMap::Cell::kFree, open) << i;
+  }
+  EXPECT_EQ(simulation.truth_map(0.1).cells, states.back().map.cells);
+}
+
+TEST(Simulation, ChangesComeWithTheSameBytesOnAnyNumberOfThreads) {
+  World world = before_a_door();
+  world.camera->rate_hz = 0.2;
+  world.people = 1;
+  EXPECT_EQ(record(world, 4, 1).digest, record(world, 4, 3).digest);
 }
 
 TEST(Simulation, NeedsASensorAndAWay) {

@@ -59,6 +59,38 @@ TEST(Trajectory, IsCarriedToWhereItIsSetDown) {
   EXPECT_NEAR(way.pose_at(when + 1e-6).x, 5.0, 1e-6);
 }
 
+TEST(Trajectory, EndsWithTheRecordingAndWaitsForIt) {
+  const Drive whole{.step_m = 0.3};
+  const Trajectory way(kBend, whole);
+  Drive drive = whole;
+  drive.duration_s = 0.4 * way.duration_s();
+  const Trajectory cut(kBend, drive);
+  EXPECT_EQ(cut.duration_s(), *drive.duration_s);
+  EXPECT_EQ(cut.pose_at(cut.duration_s()), way.pose_at(cut.duration_s()));
+  EXPECT_LT(cut.stops().back(), cut.duration_s());
+  EXPECT_LT(cut.stops().size(), way.stops().size());
+  drive.duration_s = way.duration_s() + 5.0;
+  const Trajectory longer(kBend, drive);
+  EXPECT_EQ(longer.duration_s(), *drive.duration_s);
+  EXPECT_EQ(longer.pose_at(longer.duration_s()), way.pose_at(way.duration_s()));
+}
+
+TEST(Trajectory, KnowsWhatIsDrivenOverInAPartOfTheTime) {
+  const Trajectory way(kBend, {.mode = Drive::Mode::kContinuous});
+  const double middle_s = 0.5 * way.duration_s();
+  const auto before = way.stretches(0.0, middle_s), after = way.stretches(middle_s);
+  EXPECT_EQ(before.front().a, kBend.front().position);
+  EXPECT_LT((before.back().b - way.pose_at(middle_s).translation()).norm(), 1e-9);
+  EXPECT_LT((after.front().a - way.pose_at(middle_s).translation()).norm(), 1e-9);
+  EXPECT_LT((after.back().b - kBend.back().position).norm(), 1e-9);
+  const auto length = [](const std::vector<geometry::Segment>& stretches) {
+    double sum = 0.0;
+    for (const geometry::Segment& stretch : stretches) sum += stretch.length();
+    return sum;
+  };
+  EXPECT_NEAR(length(before) + length(after), length(way.stretches()), 1e-3);
+}
+
 TEST(Trajectory, NeedsAWay) {
   EXPECT_THROW(Trajectory({{{0, 0}, false}}, {}), std::invalid_argument);
   EXPECT_THROW(Trajectory({{{0, 0}, false}, {{0, 0}, false}}, {}), std::invalid_argument);

@@ -6,8 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "geometry/angles.hpp"
 #include "geometry/segment.hpp"
@@ -55,6 +57,57 @@ TEST(ShippedWorlds, TheCorridorEndHas42AcquisitionsOnTwoWays) {
     EXPECT_EQ(Trajectory(two.path, two.drive).stops().size(), 21U) << second;
     EXPECT_EQ(one.panels.size(), two.panels.size()) << second;
   }
+}
+
+TEST(ShippedWorlds, ThePapersRoomsAreMeasuredAsPrinted) {
+  struct Case {
+    const char* name;
+    double width_m, height_m;
+    geometry::Pose2 start;
+    std::size_t transducers;
+  };
+  const Case cases[] = {{"li2006", 20.0, 20.0, {1.0, 1.0, 0.0}, 16},
+                        {"li2007", 4.55, 3.75, {1.0, 0.6, 0.0}, 16},
+                        {"lip_1", 13.0, 8.0, {0.0, 0.0, 0.0}, 16},
+                        {"lip_2", 13.0, 8.0, {6.0, 0.0, 0.0}, 16},
+                        {"zhu", 9.0, 7.0, {0.6, 0.6, 0.0}, 5}};
+  for (const Case& c : cases) {
+    const World world = load_world(shipped(c.name));
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d& corner : world.areas.front()) box.extend(corner);
+    EXPECT_NEAR(box.sizes().x(), c.width_m, 1e-9) << c.name;
+    EXPECT_NEAR(box.sizes().y(), c.height_m, 1e-9) << c.name;
+    EXPECT_EQ(Trajectory(world.path, world.drive).pose_at(0.0), c.start) << c.name;
+    EXPECT_EQ(world.sonars.at(0).ring.T_base_transducer.size(), c.transducers) << c.name;
+  }
+}
+
+TEST(ShippedWorlds, ThePapersPeriodsAreDriven) {
+  for (const auto& [name, duration_s] :
+       {std::pair{"li2007", 23.6}, {"li2007_slow", 36.6}, {"lip_1", 70.0}, {"lip_2", 70.0}}) {
+    const World world = load_world(shipped(name));
+    const Trajectory way(world.path, world.drive);
+    EXPECT_EQ(way.duration_s(), duration_s) << name;
+    Drive open_end = world.drive;
+    open_end.duration_s.reset();
+    // All of the way is driven, and the robot does not wait for long.
+    EXPECT_NEAR(Trajectory(world.path, open_end).duration_s(), duration_s, 0.1 * duration_s) << name;
+    EXPECT_LE(Trajectory(world.path, open_end).duration_s(), duration_s) << name;
+  }
+  EXPECT_LE(load_world(shipped("zhu")).drive.speed_mps, 0.05);
+}
+
+TEST(ShippedWorlds, WhatChangesIsPassedAgain) {
+  const World world = load_world(shipped("changing"));
+  const Trajectory way(world.path, world.drive);
+  std::set<std::string> events;
+  for (const Change& change : world.changes) {
+    events.insert(change.event);
+    // Two legs of 8 m, that is more than 200 scans.
+    EXPECT_GT(way.duration_s() - change.when_s, 40.0) << change.event;
+  }
+  EXPECT_EQ(events.size(), 5U);
+  EXPECT_GT(world.people, 0);
 }
 
 TEST(ShippedWorlds, TheCurveOfTheCorridorEndIsGentle) {
@@ -164,6 +217,7 @@ TEST(WorldFile, ComplaintsNameFileLineAndWhatToDo) {
       {"preset: opensimple", "preset: opensimple, rate: .nan", ":9:", "finite number"},
       {"preset: opensimple", "preset: opensimple, k: 0, k: 1", ":9:", "comes twice"},
       {"preset: opensimple", "preset: opensimple, [1]: 1", ":9:", "expected a key"},
+      {"preset: opensimple", "preset: opensimple, field: 7", ":9:", "from 0.01 to 6.28"},
       {"path:", "  pillars: [{at: [2, 2], sides: 2000000000}]\npath:", ":6:", "from 3 to 360"},
       {"path:", "drive: {step: 1e-12}\npath:", ":6:", "from 0.01"},
       {"path:", "drive: {speed: 1e-9}\npath:", ":6:", "from 0.01"},
@@ -192,6 +246,39 @@ TEST(WorldFile, ComplaintsNameFileLineAndWhatToDo) {
     EXPECT_THAT(text, HasSubstr(c.says)) << c.to;
     EXPECT_THAT(text, HasSubstr(c.line)) << c.to;
   }
+}
+
+/// The tiny world with these keys of a sonar ring in the place of its range finder.
+std::string with_ring(const std::string& keys) {
+  return changed("  range_finders:\n    - {preset: opensimple}", "  sonars:\n    - {" + keys + "}");
+}
+
+World loaded(const std::string& text) {
+  const tests::TemporaryFolder folder;
+  return load_world(folder.write("world.yaml", text));
+}
+
+TEST(WorldFile, ALaserOfHalfATurnHasABeamOnEitherEdge) {
+  const World world = loaded(changed("preset: opensimple", "preset: tof-lms, count: 181, field: 3.14159265358979"));
+  const sensors::RangeFinder& finder = world.range_finders.front().finder;
+  EXPECT_NEAR(finder.beam_angle(0), -geometry::to_radians(90.0), 1e-12);
+  EXPECT_NEAR(finder.beam_angle(90), 0.0, 1e-12);
+  EXPECT_NEAR(finder.beam_angle(180), geometry::to_radians(90.0), 1e-12);
+}
+
+TEST(WorldFile, ARingOfItsOwnFiresAtOnceOrInGroups) {
+  const std::string transducers = "transducers: [[0, 0.1, 1.57], [0.1, 0, 0], [0, -0.1, -1.57]]";
+  const sensors::SonarRing at_once = loaded(with_ring(transducers)).sonars.front().ring;
+  ASSERT_EQ(at_once.T_base_transducer.size(), 3U);
+  EXPECT_EQ(at_once.T_base_transducer[2].theta, -1.57);
+  EXPECT_TRUE(at_once.firing_times_s.empty());
+  const World in_groups = loaded(with_ring(transducers + ", firing_times: [0, 0.1, 0]"));
+  EXPECT_EQ(in_groups.sonars.front().ring.firing_times_s, (std::vector<double>{0.0, 0.1, 0.0}));
+  EXPECT_THAT(complaint(with_ring(transducers + ", firing_times: [0, 0.1]")), HasSubstr(":9: 'firing_times'"));
+  EXPECT_THAT(complaint(with_ring("firing_times: [0, 1]")), HasSubstr("list of 16 numbers"));
+  EXPECT_THAT(complaint(with_ring(transducers + ", firing_times: [0, 61, 0]")), HasSubstr("within 60 s"));
+  EXPECT_THAT(complaint(with_ring("transducers: []")), HasSubstr("at least one [x, y, theta]"));
+  EXPECT_THAT(complaint(with_ring("transducers: [[0, 1]]")), HasSubstr("3 numbers"));
 }
 
 TEST(WorldFile, ThingsThatFindNoWallSayWhere) {
@@ -247,6 +334,90 @@ TEST(WorldFile, ThePathStaysIndoorsBetweenRoomsToo) {
               HasSubstr("waypoint [-0.4, 1] is outside"));
 }
 
+TEST(WorldFile, APathMayBeLanesThatFitTheBuildingAtHand) {
+  const std::string lanes = changed("path: [[1, 1], [2, 1]]", "path: {lanes: {start: [0.6, 0.6], spacing: 0.9}}");
+  EXPECT_EQ(loaded(lanes).path.size(), 6U);
+  const auto with = [&](const std::string& keys) {
+    return complaint(changed("path: [[1, 1], [2, 1]]", "path: {lanes: {" + keys + "}}"));
+  };
+  EXPECT_THAT(with("spacing: 1"), HasSubstr(":6:"));
+  EXPECT_THAT(with("start: [0.1, 0.1]"), HasSubstr(":6: there is no room for the robot at the start of the lanes"));
+  EXPECT_THAT(with("start: [1, 1], spacing: 0.01"), HasSubstr("from 0.1"));
+  EXPECT_THAT(with("start: [1, 1], spaceing: 1"), HasSubstr("did you mean 'spacing'"));
+  EXPECT_THAT(complaint(changed("path: [[1, 1], [2, 1]]", "path: {lane: {start: [1, 1]}}")), HasSubstr("'lanes'"));
+
+  const tests::TemporaryFolder folder;
+  folder.write("small.yaml", lanes);
+  const std::string larger =
+      "format: credo-world/1\nextends: small.yaml\nbuilding:\n  rooms:\n"
+      "    - outline: [[0, 0], [4, 0], [4, 5], [0, 5]]\n";
+  EXPECT_EQ(load_world(folder.write("large.yaml", larger)).path.size(), 10U);
+  const std::string other = "format: credo-world/1\nextends: small.yaml\npath: [[1, 1], [2, 1]]\n";
+  EXPECT_EQ(load_world(folder.write("other.yaml", other)).path.size(), 2U);
+}
+
+TEST(WorldFile, AnExtendedWorldsDriveIsReplacedAsAWhole) {
+  const tests::TemporaryFolder folder;
+  folder.write("first.yaml", changed("path:", "drive: {mode: continuous, speed: 0.7, duration: 9}\npath:"));
+  const std::string second = "format: credo-world/1\nextends: first.yaml\n";
+  EXPECT_EQ(load_world(folder.write("second.yaml", second)).drive.speed_mps, 0.7);
+  const World other = load_world(folder.write("other.yaml", second + "drive: {speed: 0.3}\n"));
+  EXPECT_EQ(other.drive.mode, Drive::Mode::kStopAndGo);
+  EXPECT_FALSE(other.drive.duration_s);
+}
+
+/// The tiny world with a door and a box, and what changes in it.
+std::string with_changes(const std::string& changes) {
+  return changed("path:",
+                 "  boxes: [{at: [2, 2.4], size: [0.4, 0.4]}]\n  doors: [{at: [4, 2], kind: opening, leaf: 0}]\n"
+                 "drive: {duration: 60}\nchanges: [" +
+                     changes + "]\npath:");
+}
+
+TEST(WorldFile, ChangesComeInTheirOrder) {
+  const World world =
+      loaded(with_changes("{when: 5, door: [4, 2], leaf: 1.5}, {when: 5, move: [2, 2.4], by: [1, 0]}, "
+                          "{when: 8, take: [3, 2.4]}, {when: 9, put: {at: [2, 2], size: [0.2, 0.2]}}"));
+  std::vector<std::string> events;
+  for (const Change& change : world.changes) events.push_back(change.event);
+  EXPECT_THAT(events, testing::ElementsAre("door_opened", "obstacle_moved", "obstacle_removed", "obstacle_added"));
+}
+
+TEST(WorldFile, AChangeThatCannotBeSaysWhere) {
+  struct Case {
+    const char *change, *says;
+  };
+  const Case cases[] = {{"{door: [4, 2], leaf: 1}", "needs the key 'when'"},
+                        {"{when: 0, door: [4, 2], leaf: 1}", "after the start"},
+                        {"{when: 5, door: [4, 2], leaf: 1}, {when: 4, take: [2, 2.4]}", "not before the change above"},
+                        {"{when: 5}", "needs one of the keys 'put', 'take', 'move' and 'door'"},
+                        {"{when: 5, take: [2, 2.4], move: [2, 2.4]}", "not two"},
+                        {"{when: 5, take: [3.5, 2.4]}", "nothing that can be moved stands within 0.5 m of [3.5, 2.4]"},
+                        {"{when: 5, take: [2, 2.4]}, {when: 6, take: [2, 2.4]}", "nothing that can be moved"},
+                        {"{when: 5, door: [0, 2], leaf: 1}", "no opening with a leaf within 0.5 m of [0, 2]"},
+                        {"{when: 5, take: [2, 2.4], leaf: 1}", "unknown key 'leaf'"},
+                        {"{when: 5, put: {at: [2, 2], size: [0, 1]}}", "two lengths larger than 0"},
+                        {"{when: 60, take: [2, 2.4]}", "the drive is over after 60"}};
+  for (const Case& c : cases) {
+    const std::string text = complaint(with_changes(c.change));
+    EXPECT_THAT(text, HasSubstr(c.says)) << c.change;
+    EXPECT_THAT(text, HasSubstr(":9:")) << c.change;
+  }
+}
+
+TEST(WorldFile, TheRobotMayGoWhereSomethingStoodOrWillStand) {
+  const auto with = [](const std::string& change) {
+    return complaint(changed("path:", "  boxes: [{at: [3.5, 1], size: [0.2, 0.2]}]\nchanges: [" + change +
+                                          "]\npath: [[1, 1], [3.4, 1], [1, 1]] #"));
+  };
+  EXPECT_THAT(with("{when: 1, put: {at: [1, 2], size: [0.2, 0.2]}}"), HasSubstr("drives through 'cabinet'"));
+  EXPECT_EQ(with("{when: 3, take: [3.5, 1]}"), "");
+  EXPECT_THAT(with("{when: 25, take: [3.5, 1]}"), HasSubstr("drives through 'cabinet'"));
+  EXPECT_EQ(with("{when: 3, take: [3.5, 1]}, {when: 35, put: {at: [3.5, 1], size: [0.2, 0.2]}}"), "");
+  EXPECT_THAT(with("{when: 3, take: [3.5, 1]}, {when: 6, put: {at: [2, 1], size: [0.2, 0.2]}}"),
+              HasSubstr("'cabinet' at [1.9, 1]"));
+}
+
 TEST(WorldFile, AnEmptyOneIsCalledSo) {
   EXPECT_THAT(complaint(""), testing::EndsWith("world.yaml: is empty; expected a world file"));
   EXPECT_THAT(complaint("# nothing\n"), HasSubstr("is empty"));
@@ -282,6 +453,8 @@ TEST(WorldFile, TheManualsExampleLoadsAndItsDefaultsAreTrue) {
   EXPECT_EQ(world.range_finders[0].faintest, range_finder_preset("opensimple").faintest);
   EXPECT_EQ(world.camera->struts_rad, camera_preset("conic-640").struts_rad);
   EXPECT_EQ(world.camera->strut_width_px, camera_preset("conic-640").strut_width_px);
+  EXPECT_NEAR(world.range_finders[0].finder.angle_increment_rad, geometry::to_radians(2.0), 1e-12);
+  EXPECT_EQ(world.sonars[1].ring.firing_times_s.size(), 3U);
   EXPECT_EQ(world.sonars[0].cross_talk_share, SonarSetup{}.cross_talk_share);
   EXPECT_EQ(world.clutter_share, defaults.clutter_share);
   EXPECT_EQ(world.people, defaults.people);
@@ -291,6 +464,7 @@ TEST(WorldFile, TheManualsExampleLoadsAndItsDefaultsAreTrue) {
   EXPECT_EQ(world.failures[0].scale, Failure{}.scale);
   EXPECT_EQ(world.failures[1].to_s, Failure{}.to_s);
   EXPECT_EQ(world.only_planned.size(), 3U);  // of the shelf
+  EXPECT_EQ(world.changes.size(), 4U);
 }
 
 TEST(WorldFile, AFolderIsNone) {
