@@ -10,5 +10,7 @@
 namespace credo::apps {
 
 void add_reproduce_clerentin(CLI::App& reproduce);
+/// The experiments of the four mapping papers.
+void add_reproduce_maps(CLI::App& reproduce);
 
 }  // namespace credo::apps

@@ -16,6 +16,31 @@
 
 namespace credo::mapping {
 
+/// Calls take_in(cell, mass) for each cell that a reading says something of, its mass discounted by the reliabilities
+/// of the model and of the pose.
+template <typename TakeIn>
+void for_each_mass(const grids::Georeference& georeference, const sensors::SonarRing& ring, const AnySonarModel& model,
+                   const PlacedReading& reading, const TakeIn& take_in) {
+  const bool echo = std::isfinite(reading.range_m);
+  const double reach_m = echo ? model.reach(reading.range_m) : model.no_echo().reach();
+  const double reliability = reading.reliability * (echo ? model.reliability() : model.no_echo().reliability());
+  if (!(reach_m > 0.0 && reliability > 0.0)) return;
+  const Fan fan(georeference, reading.T_map_transducer, 0.5 * ring.beam_width_rad, reach_m);
+  const geometry::Pose2 T_transducer_map = reading.T_map_transducer.inverse();
+  const CellRun rows = fan.rows();
+  for (int row = rows.begin; row < rows.end; ++row) {
+    const CellRun run = fan.run(row);
+    for (int column = run.begin; column < run.end; ++column) {
+      const grids::CellIndex cell{column, row};
+      const Eigen::Vector2d there = T_transducer_map * georeference.centre(cell);
+      const double rho_m = there.norm(), theta_rad = std::atan2(there.y(), there.x());
+      const evidence::GridMass mass = evidence::discount(
+          echo ? model.mass(rho_m, theta_rad, reading.range_m) : model.no_echo().mass(rho_m, theta_rad), reliability);
+      if (mass != evidence::GridMass::vacuous()) take_in(cell, mass);
+    }
+  }
+}
+
 /// The same readings as `Mapper` into cells of any rule, one after the other. Slower: each cell asks the sensor model
 /// itself, so that masses without ignorance stay what they are.
 template <CellRule Rule>
@@ -37,8 +62,9 @@ class SequentialMapper {
               const sensors::MotionPath& path = {}) {
     place_sweep(rig_, params_.georeference, params_.pose, T_map_base, sweep, path, counts_, placed_);
     for (const PlacedReading& reading : placed_)
-      spread(rig_.sonar_rings[static_cast<std::size_t>(sweep.sensor)], sonars_[static_cast<std::size_t>(sweep.sensor)],
-             reading, sweep.time);
+      for_each_mass(params_.georeference, rig_.sonar_rings[static_cast<std::size_t>(sweep.sensor)],
+                    sonars_[static_cast<std::size_t>(sweep.sensor)], reading,
+                    [&](grids::CellIndex cell, const evidence::GridMass& mass) { take_in(cell, mass, sweep.time); });
   }
 
   /// A scan's evidence is that of `Mapper` on an empty map: each cell takes it in once.
@@ -75,30 +101,7 @@ class SequentialMapper {
 
  private:
   void take_in(grids::CellIndex cell, const evidence::GridMass& mass, sensors::Timestamp time) {
-    if (mass == evidence::GridMass::vacuous()) return;
     abandoned_ += rule_.update(grid_.see(cell), mass, time) ? 0 : 1;
-  }
-
-  void spread(const sensors::SonarRing& ring, const AnySonarModel& model, const PlacedReading& reading,
-              sensors::Timestamp time) {
-    const bool echo = std::isfinite(reading.range_m);
-    const double reach_m = echo ? model.reach(reading.range_m) : model.no_echo().reach();
-    const double reliability = reading.reliability * (echo ? model.reliability() : model.no_echo().reliability());
-    if (!(reach_m > 0.0 && reliability > 0.0)) return;
-    const Fan fan(params_.georeference, reading.T_map_transducer, 0.5 * ring.beam_width_rad, reach_m);
-    const geometry::Pose2 T_transducer_map = reading.T_map_transducer.inverse();
-    const CellRun rows = fan.rows();
-    for (int row = rows.begin; row < rows.end; ++row) {
-      const CellRun run = fan.run(row);
-      for (int column = run.begin; column < run.end; ++column) {
-        const grids::CellIndex cell{column, row};
-        const Eigen::Vector2d there = T_transducer_map * params_.georeference.centre(cell);
-        const double rho_m = there.norm(), theta_rad = std::atan2(there.y(), there.x());
-        const evidence::GridMass mass =
-            echo ? model.mass(rho_m, theta_rad, reading.range_m) : model.no_echo().mass(rho_m, theta_rad);
-        take_in(cell, evidence::discount(mass, reliability), time);
-      }
-    }
   }
 
   void fold(const grids::EvidentialGrid& one, sensors::Timestamp time) {

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "evaluation/map_experiment.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "evaluation/simulated_drive.hpp"
+
+namespace credo::evaluation {
+namespace {
+
+template <typename Reading>
+void keep_until(std::vector<Reading>& readings, sensors::Timestamp end) {
+  std::erase_if(readings, [&](const Reading& reading) { return reading.time >= end; });
+}
+
+template <typename Reading>
+std::vector<Reading> joined(std::vector<std::vector<Reading>>&& by_sensor) {
+  std::vector<Reading> all;
+  for (std::vector<Reading>& readings : by_sensor)
+    all.insert(all.end(), std::make_move_iterator(readings.begin()), std::make_move_iterator(readings.end()));
+  std::stable_sort(all.begin(), all.end(), [](const Reading& a, const Reading& b) { return a.time < b.time; });
+  return all;
+}
+
+}  // namespace
+
+MapDrive play_for_mapping(const sim::World& world, std::uint64_t seed) {
+  const sim::Simulation simulation(world, seed);
+  datasets::Dataset readings = readings_of(simulation);
+  std::vector<sensors::OdometryReading> poses;
+  for (const datasets::TimedPose& row : readings.truth) poses.push_back({row.time, row.pose});
+  return {.T_map_base = sensors::MotionPath(std::move(poses)),
+          .rig = readings.header.rig,
+          .scans = joined(std::move(readings.scans)),
+          .sweeps = joined(std::move(readings.sonar)),
+          .truth = true_map_of(simulation)};
+}
+
+MapDrive first_part(const MapDrive& drive, double seconds) {
+  MapDrive part = drive;
+  sensors::Timestamp first = std::numeric_limits<sensors::Timestamp>::max();
+  if (!drive.scans.empty()) first = std::min(first, drive.scans.front().time);
+  if (!drive.sweeps.empty()) first = std::min(first, drive.sweeps.front().time);
+  if (drive.scans.empty() && drive.sweeps.empty()) return part;
+  const sensors::Timestamp end = first + sensors::from_seconds(seconds);
+  keep_until(part.scans, end);
+  keep_until(part.sweeps, end);
+  return part;
+}
+
+mapping::RuleMap map_by(const MapMethod& method, const MapDrive& drive) {
+  return mapping::map_along(drive.T_map_base, drive.rig, drive.scans, drive.sweeps, method.params, method.rule);
+}
+
+grids::MassMap decided_by_belief(const grids::MassMap& map) {
+  grids::MassMap decided = map;
+  for (evidence::GridMass& mass : decided.masses) {
+    const bool occupied = evidence::belief(mass, evidence::GridElement::kOccupied, evidence::GridModel::kFree) > 0.5;
+    mass = {.empty = occupied ? 0.0 : 1.0, .occupied = occupied ? 1.0 : 0.0, .conflict = 0.0, .unknown = 0.0};
+  }
+  return decided;
+}
+
+std::int64_t decided_differently(const grids::MassMap& a, const grids::MassMap& b) {
+  if (a.box != b.box) throw std::invalid_argument("maps of different rectangles cannot be compared cell by cell");
+  const auto sign = [](const evidence::GridMass& mass) {
+    return (mass.occupied > mass.empty) - (mass.occupied < mass.empty);
+  };
+  std::int64_t cells = 0;
+  for (std::size_t i = 0; i < a.masses.size(); ++i) cells += sign(a.masses[i]) != sign(b.masses[i]);
+  return cells;
+}
+
+}  // namespace credo::evaluation

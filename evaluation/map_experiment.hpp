@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "datasets/map_server.hpp"
+#include "evaluation/map_score.hpp"
+#include "mapping/map_rule.hpp"
+#include "sim/world.hpp"
+
+// What the experiments of the four mapping papers are made of: drives whose truth is known, and maps of them.
+namespace credo::evaluation {
+
+/// The readings of a robot, the poses that it took them from, and the truth.
+struct MapDrive {
+  sensors::MotionPath T_map_base;
+  sensors::Rig rig;
+  std::vector<sensors::RangeScan> scans;
+  std::vector<sensors::SonarSweep> sweeps;
+  datasets::OccupancyMap truth;
+};
+
+/// Plays a world with its true poses.
+[[nodiscard]] MapDrive play_for_mapping(const sim::World& world, std::uint64_t seed);
+/// The readings up to a time after the first one. [s]
+[[nodiscard]] MapDrive first_part(const MapDrive& drive, double seconds);
+
+/// A sensor model with a rule.
+struct MapMethod {
+  std::string name;
+  mapping::TrajectoryMappingParams params;
+  mapping::MapRule rule;
+};
+
+[[nodiscard]] mapping::RuleMap map_by(const MapMethod& method, const MapDrive& drive);
+
+/// Li X. 2007, step 6, to the letter: occupied is what is believed to be occupied by more than a half, its conflict
+/// included (eq. (2)), empty the rest.
+[[nodiscard]] grids::MassMap decided_by_belief(const grids::MassMap& map);
+
+/// Cells that two maps of one place decide differently. \throws std::invalid_argument if their boxes differ
+[[nodiscard]] std::int64_t decided_differently(const grids::MassMap& a, const grids::MassMap& b);
+
+}  // namespace credo::evaluation
