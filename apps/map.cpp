@@ -12,6 +12,7 @@
 
 #include "apps/about.hpp"
 #include "apps/commands.hpp"
+#include "apps/ego_poses.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/map_extent.hpp"
 #include "apps/map_saturation.hpp"
@@ -79,14 +80,17 @@ std::vector<datasets::TimedPose> given_poses(const std::string& file) {
 std::vector<Part> parts_of_dataset(const MapOptions& o, std::string& poses) {
   datasets::Dataset dataset = datasets::Dataset::open(o.source);
   for (const std::string& remark : dataset.remarks) say_warning(remark);
+  const bool ego = o.poses == "ego";
   const bool truth = o.poses.empty() || o.poses == "groundtruth";
   if (truth && dataset.truth.empty()) {
     throw std::runtime_error(o.source +
                              ": the dataset has no ground truth: give the poses with --poses FILE (for example the "
                              "trajectory.tum of credo run)");
   }
-  poses = truth ? "ground truth" : o.poses;
-  Part part{.path = path_of(truth ? dataset.truth : given_poses(o.poses)),
+  poses = truth ? "ground truth" : ego ? "ego-motion" : o.poses;
+  Part part{.path = path_of(truth ? dataset.truth
+                            : ego ? ego_poses(dataset)
+                                  : given_poses(o.poses)),
             .rig = dataset.header.rig,
             .scans = {},
             .sweeps = {}};
@@ -115,16 +119,18 @@ sensors::MotionPath base_path(const datasets::CarmenLog& log) {
 std::vector<Part> parts_of_carmen(const MapOptions& o, std::string& poses) {
   datasets::CarmenLog log = datasets::read_carmen(o.source);
   for (const std::string& remark : log.remarks) say_warning(remark);
+  std::vector<datasets::TimedPose> given;
+  if (o.poses == "ego")
+    given = ego_poses(datasets::to_dataset(log, o.source));
+  else if (!o.poses.empty())
+    given = given_poses(o.poses);
   if (!wants(o, "range")) std::fill(log.scans.begin(), log.scans.end(), std::vector<sensors::RangeScan>{});
   if (!wants(o, "sonar")) std::fill(log.sonar.begin(), log.sonar.end(), std::vector<sensors::SonarSweep>{});
   std::vector<sensors::SonarSweep> sweeps = joined(log.sonar);
   std::vector<Part> parts;
   if (!o.poses.empty()) {
-    poses = o.poses;
-    parts.push_back({.path = path_of(given_poses(o.poses)),
-                     .rig = log.rig,
-                     .scans = joined(log.scans),
-                     .sweeps = std::move(sweeps)});
+    poses = o.poses == "ego" ? "ego-motion" : o.poses;
+    parts.push_back({.path = path_of(given), .rig = log.rig, .scans = joined(log.scans), .sweeps = std::move(sweeps)});
     return parts;
   }
   poses = "the poses of the log";
@@ -263,6 +269,7 @@ void add_map(CLI::App& app) {
   command->footer(
       "  credo map datasets/office --out results/office_map                        with the ground truth\n"
       "  credo map datasets/office --poses results/office/trajectory.tum --out results/office_map\n"
+      "  credo map intel.log.gz --poses ego --out results/intel_ego                when all drifts\n"
       "  credo map intel.log.gz --out results/intel --resolution 0.1 --pictures results/intel_pictures");
   auto o = std::make_shared<MapOptions>();
   command->add_option("SOURCE", o->source, "a dataset folder, or a CARMEN log (plain or gzipped)")
@@ -270,8 +277,10 @@ void add_map(CLI::App& app) {
       ->required();
   command->add_option("-o,--out", o->out, "folder for the map; default results/NAME_map")->check(a_path());
   command
-      ->add_option("--poses", o->poses,
-                   "a trajectory file, or groundtruth (default: ground truth; of a log, its own poses)")
+      ->add_option(
+          "--poses", o->poses,
+          "a trajectory file, groundtruth, or ego: what the laser's lines and odometry tell (default: ground truth; "
+          "of a log, its own poses)")
       ->check(a_path());
   command->add_option("--sensors", o->sensors, "what to map with: range, sonar or both")
       ->delimiter(',')
