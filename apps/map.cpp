@@ -213,6 +213,7 @@ void add_map(CLI::App& app) {
       "  credo map datasets/office --out results/office_map                        with the ground truth\n"
       "  credo map datasets/office --poses results/office/trajectory.tum --out results/office_map\n"
       "  credo map intel.log.gz --out results/intel --resolution 0.1 --pictures results/intel_pictures\n"
+      "  credo map intel.log.gz --poses ego --out results/intel_ego                when all drifts\n"
       "  credo map datasets/room --sensors sonar --model calibrated                another sonar model\n"
       "  credo map datasets/room --sensors sonar --model zhu --rule adaptive       and another rule");
   auto o = std::make_shared<MapOptions>();

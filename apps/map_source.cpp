@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "apps/ego_poses.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/carmen.hpp"
@@ -48,14 +49,17 @@ std::vector<datasets::TimedPose> given_poses(const std::string& file) {
 std::vector<MapPart> parts_of_dataset(const MapSource& o, std::string& poses) {
   datasets::Dataset dataset = datasets::Dataset::open(o.source);
   for (const std::string& remark : dataset.remarks) say_warning(remark);
+  const bool ego = o.poses == "ego";
   const bool truth = o.poses.empty() || o.poses == "groundtruth";
   if (truth && dataset.truth.empty()) {
     throw std::runtime_error(o.source +
                              ": the dataset has no ground truth: give the poses with --poses FILE (for example the "
                              "trajectory.tum of credo run)");
   }
-  poses = truth ? "ground truth" : o.poses;
-  MapPart part{.path = path_of(truth ? dataset.truth : given_poses(o.poses)),
+  poses = truth ? "ground truth" : ego ? "ego-motion" : o.poses;
+  MapPart part{.path = path_of(truth ? dataset.truth
+                               : ego ? ego_poses(dataset)
+                                     : given_poses(o.poses)),
                .rig = dataset.header.rig,
                .scans = {},
                .sweeps = {}};
@@ -80,16 +84,18 @@ sensors::MotionPath base_path(const datasets::CarmenLog& log) {
 std::vector<MapPart> parts_of_carmen(const MapSource& o, std::string& poses) {
   datasets::CarmenLog log = datasets::read_carmen(o.source);
   for (const std::string& remark : log.remarks) say_warning(remark);
+  std::vector<datasets::TimedPose> given;
+  if (o.poses == "ego")
+    given = ego_poses(datasets::to_dataset(log, o.source));
+  else if (!o.poses.empty())
+    given = given_poses(o.poses);
   if (!wants(o, "range")) std::fill(log.scans.begin(), log.scans.end(), std::vector<sensors::RangeScan>{});
   if (!wants(o, "sonar")) std::fill(log.sonar.begin(), log.sonar.end(), std::vector<sensors::SonarSweep>{});
   std::vector<sensors::SonarSweep> sweeps = joined(log.sonar);
   std::vector<MapPart> parts;
   if (!o.poses.empty()) {
-    poses = o.poses;
-    parts.push_back({.path = path_of(given_poses(o.poses)),
-                     .rig = log.rig,
-                     .scans = joined(log.scans),
-                     .sweeps = std::move(sweeps)});
+    poses = o.poses == "ego" ? "ego-motion" : o.poses;
+    parts.push_back({.path = path_of(given), .rig = log.rig, .scans = joined(log.scans), .sweeps = std::move(sweeps)});
     return parts;
   }
   poses = "the poses of the log";
@@ -156,7 +162,9 @@ void add_map_source_options(CLI::App& command, MapSource& source) {
       ->required();
   command
       .add_option("--poses", source.poses,
-                  "a trajectory file, or groundtruth (default: ground truth; of a log, its own poses)")
+                  "a trajectory file, groundtruth, or ego: what the laser's lines and odometry tell (default: ground "
+                  "truth; of a "
+                  "log, its own poses)")
       ->check(a_path());
   command.add_option("--sensors", source.sensors, "what to map with: range, sonar or both")
       ->delimiter(',')

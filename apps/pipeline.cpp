@@ -3,6 +3,7 @@
 
 #include "apps/pipeline.hpp"
 
+#include "apps/poses_by_hand.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/acquisitions.hpp"
 #include "evaluation/localization_score.hpp"
@@ -33,12 +34,14 @@ Outcome run(const datasets::Dataset& dataset, const PipelineParams& params,
   localization::Localizer localizer(header.floor_plan.value_or(geometry::FloorPlan{}), header.rig, header.initial_pose,
                                     params.localizer);
   mapping::Mapper mapper(header.rig, params.mapper);
+  PosesByHand by_hand(dataset, acquisitions.times(), params.poses_by_hand);
   Outcome outcome;
   double busy = 0.0;
   for (std::size_t i = 0; i < acquisitions.size(); ++i) {
     sensors::Acquisition acquisition = acquisitions.read(i);
     const Stopwatch watch;
     localizer.with_path(acquisition);
+    if (const auto pose = by_hand.next(acquisition)) localizer.set_pose(*pose);
     const perception::Scene& scene = observer.observe(acquisition);
     const localization::Localization fix = localizer.update(scene, acquisition.motion);
     busy += watch.seconds();

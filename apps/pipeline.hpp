@@ -18,6 +18,7 @@ struct PipelineParams {
   perception::ObserverParams observer;
   localization::LocalizerParams localizer;
   mapping::MapperParams mapper;
+  std::vector<datasets::TimedPose> poses_by_hand;  ///< each known as well as the dataset's initial pose
 
   /// The parameters of a method, each part told.
   [[nodiscard]] static PipelineParams of(perception::Method method);

@@ -4,6 +4,7 @@
 #include "apps/run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,8 @@ PipelineParams params_of(const RunOptions& options) {
   PipelineParams params =
       PipelineParams::of(options.method == "paper" ? perception::Method::kPaper : perception::Method::kDefault);
   params.mapper.georeference.resolution_m = options.resolution_m;
+  for (const auto& [seconds, x, y, theta] : options.poses_at)
+    params.poses_by_hand.push_back({static_cast<sensors::Timestamp>(std::llround(1e9 * seconds)), {x, y, theta}});
   return params;
 }
 
@@ -102,6 +105,7 @@ void add_run(CLI::App& app) {
       "  credo run datasets/office                                  results in results/office\n"
       "  credo run datasets/office --out results/a --pictures results/a/pictures\n"
       "  credo run datasets/office --method paper --out results/paper\n"
+      "  credo run datasets/office --pose-at 12.5 3.0 1.2 1.57          tells a robot that is lost where it is\n"
       "  credo run datasets/office --format json --force | jq .score.mean_position_m");
   auto options = std::make_shared<RunOptions>();
   auto format = std::make_shared<OutputFormat>();
@@ -123,6 +127,14 @@ void add_run(CLI::App& app) {
                    "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
       ->check(CLI::IsMember({"normalized", "raw"}))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--pose-at", options->poses_at,
+          "a pose set by hand: a time on the dataset's clock, as in trajectory.tum, and x y theta [s m m rad]; "
+          "may be given again")
+      ->type_name("T X Y THETA")
+      ->allow_extra_args(false)
+      ->check(number_in(-1e9, 1e10));
   command->add_flag("-f,--force", options->force, "replace results that are already there");
   add_format_option(*command, *format);
   command->callback([options, format] { execute(*options, *format); });

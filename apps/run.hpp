@@ -3,9 +3,11 @@
 
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/pipeline.hpp"
 
@@ -19,6 +21,7 @@ struct RunOptions {
   int picture_moments = 6;
   double resolution_m = 0.05;
   std::string readout = "normalized";
+  std::vector<std::array<double, 4>> poses_at;  ///< set by hand: time [s], x [m], y [m], theta [rad]
   bool force = false;
 };
 

@@ -276,6 +276,10 @@ void settle_acquisition_sensor(const fs::path& folder, int line, Dataset& datase
 
 }  // namespace
 
+Eigen::Matrix3d default_initial_covariance() {
+  return Eigen::Vector3d(std::begin(kInitialSigma)).cwiseAbs2().asDiagonal();
+}
+
 bool Dataset::is_dataset(const fs::path& folder) {
   std::error_code error;
   return fs::is_regular_file(folder / "dataset.yaml", error);

@@ -62,6 +62,9 @@ struct DatasetHeader {
   std::optional<geometry::FloorPlan> floor_plan;
 };
 
+/// Of an initial pose of which nothing else is said: 5 cm, 5 cm and 2 degrees, 1-sigma.
+[[nodiscard]] Eigen::Matrix3d default_initial_covariance();
+
 /// What was read with a remark: nothing is wrong enough to refuse the dataset, and nothing of it is hidden.
 struct SensorLog {
   std::string sensor;               ///< folder, e.g. "range0"

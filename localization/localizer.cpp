@@ -25,7 +25,10 @@ using tracking::Match;
 using tracking::Track;
 
 /// The start of a run without a plan or without an initial pose: the origin of its own frame, exactly.
-constexpr double kOriginSigma = 1e-6;
+PoseEstimate origin() {
+  constexpr double kSigma = 1e-6;
+  return {{}, kSigma * kSigma * Matrix3d::Identity()};
+}
 
 }  // namespace
 
@@ -43,6 +46,7 @@ Localizer::State::State(const geometry::FloorPlan& plan, const sensors::Rig& ins
       modules(map, params.integrity),
       search(map, fitter.scan_matcher().field(), rig, params.search),
       elsewhere(search, fitter, params.hypotheses),
+      ego_motion(origin(), params.ego_motion, params.constant_velocity),
       absolute(initial.has_value() && !map.empty()),
       trust(initial.value_or(PoseEstimate{}), params.belief, params.status, params.trust),
       predictor(params.constant_velocity) {
@@ -53,8 +57,7 @@ Localizer::State::State(const geometry::FloorPlan& plan, const sensors::Rig& ins
     const sensors::OmniCamera& camera = *rig.camera;
     mirror = {camera.center_px, camera.accuracy.center_px, Vector2d::Zero(), camera.accuracy.tilt_rad};
   }
-  const PoseEstimate origin{{}, kOriginSigma * kOriginSigma * Matrix3d::Identity()};
-  fit.pose = calibrated_pose(rig, absolute ? *initial : origin, 2 * (map.junction_count() + map.landmark_count()));
+  fit.pose = calibrated_pose(rig, absolute ? *initial : origin(), 2 * (map.junction_count() + map.landmark_count()));
 }
 
 /// Odometry's motion, which the paper's method does without; else what the latest velocity predicts; nothing before the
@@ -69,7 +72,8 @@ PoseEstimate Localizer::State::predicted_motion(const std::optional<PoseEstimate
 PoseEstimate Localizer::State::predict(const Scene& scene, const std::optional<PoseEstimate>& motion) {
   const bool paper = params.method == perception::Method::kPaper;
   PoseEstimate step = predicted_motion(motion, scene.time);
-  if (!paper && !motion && !history.empty())
+  if (set_by_hand) start_from(*set_by_hand, step);
+  if (!paper && !motion && !history.empty() && !set_by_hand)
     step.pose.theta +=
         unforeseen_turn(tracker.tracks(), history.latest().time, scene, step.pose, params.constant_velocity);
   const bool follows_map = absolute && !history.empty();
@@ -87,6 +91,23 @@ PoseEstimate Localizer::State::predict(const Scene& scene, const std::optional<P
   tracker.predict(motion_to(sharpened));
   expect_landmarks(sharpened);
   return step;
+}
+
+/// Forgets where the robot was thought to be, but not how it moves and what was learned about the instruments: it was
+/// where `step` leads from to `pose`.
+void Localizer::State::start_from(const PoseEstimate& pose, const PoseEstimate& step) {
+  const Pose2 before = pose.pose * step.pose.inverse();
+  Matrix3d back = Matrix3d::Identity();
+  back(0, 2) = pose.pose.y - before.y;
+  back(1, 2) = before.x - pose.pose.x;
+  place(fit.pose, {before, back * pose.covariance * back.transpose()});
+  labels.forget_all(tracker);
+  misfit = Misfit(params.misfit);
+  elsewhere.clear();
+  ego_motion.restart(pose);
+  absolute = !map.empty();
+  doubted = matched_before = 0;
+  trust.given(fit.estimate());
 }
 
 /// The motion from the latest pose to another one, which knows nothing of it.
@@ -146,23 +167,12 @@ Pose2 Localizer::State::likeliest_first_step(const Scene& scene) {
   return best;
 }
 
-/// Without a plan or an initial pose: the motion from what the tracks saw in both scenes, with odometry as the prior.
-PoseEstimate Localizer::State::solve_motion(const Scene& scene, const std::vector<Match>& matches,
-                                            const PoseEstimate& motion) {
+/// Without a plan or an initial pose: the motion by the walls that are seen again, with odometry as the prior.
+PoseEstimate Localizer::State::follow_walls(const Scene& scene, const std::optional<PoseEstimate>& motion) {
   fit.observations.clear();
-  if (history.empty()) return motion;
-  for (const Match& match : matches) {
-    const Track& track = tracker.tracks()[static_cast<std::size_t>(match.track)];
-    const Primitive& now = scene.primitives[static_cast<std::size_t>(match.primitive)];
-    if (track.last_seen_time != history.latest().time || now.bearing_only || track.last_seen.bearing_only ||
-        (now.type == PrimitiveType::kWall) != (track.last_seen.type == PrimitiveType::kWall))
-      continue;
-    fit.observations.push_back(observe_again(now, track.last_seen, params.fit.observations));
-    fit.observations.back().primitive = match.primitive;
-  }
-  const PoseEstimate solved = fitter.solve_motion(scene, motion, fit);
-  move(fit.pose, solved, params.calibration_walk);
-  return solved;
+  ego_motion.update(scene, params.method == perception::Method::kDefault ? motion : std::nullopt);
+  place(fit.pose, ego_motion.pose().value);
+  return ego_motion.step();
 }
 
 void Localizer::State::start_tracks(const Scene& scene) {
@@ -258,6 +268,12 @@ void Localizer::State::weigh(const Scene& scene, Localization& fix) {
   judge(fix, scene.camera_seen, scene.range_finder_seen, params.status);
 }
 
+/// Without a plan, what can be right is the motion since the start.
+void Localizer::State::believe_motion(Localization& fix) const {
+  fix.belief = ego_motion.pose().belief;
+  fix.matched = ego_motion.matched();
+}
+
 void Localizer::State::remember(const Localization& fix) {
   if (found_elsewhere) history.forget();
   history.add({fix.time, fix.estimate, fix.belief});
@@ -283,6 +299,8 @@ void Localizer::with_path(sensors::Acquisition& acquisition) {
   s.history.follow(acquisition.path);
 }
 
+void Localizer::set_pose(const PoseEstimate& T_map_base) { state_->set_by_hand = T_map_base; }
+
 Localization Localizer::update(const Scene& scene, const std::optional<PoseEstimate>& motion) {
   State& s = *state_;
   if (scene.camera_seen) s.mirror = scene.mirror;
@@ -295,12 +313,14 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   s.fit.new_matches.clear();
   s.broken_off = s.params.method == perception::Method::kDefault && !s.history.empty() &&
                  s.continuity.breaks_off(scene, s.tracker.tracks(), matches, s.history.latest().time);
-  s.jumped = s.found_elsewhere = false;
+  s.jumped = false;
+  s.found_elsewhere = s.set_by_hand.has_value();
+  s.set_by_hand.reset();
   // 3. The pose from what is matched; 4. the map for what has appeared, and the pose again.
   if (s.absolute)
     s.find_pose(scene, matches, step, motion.has_value());
   else
-    s.look_elsewhere(scene, s.solve_motion(scene, matches, step));
+    s.look_elsewhere(scene, s.follow_walls(scene, motion));
   if (s.absolute) s.labels.label(matches, s.tracker, s.fit);
   // 5. Start tracks; let go of landmarks that contradict the pose.
   s.start_tracks(scene);
@@ -313,7 +333,10 @@ Localization Localizer::update(const Scene& scene, const std::optional<PoseEstim
   // 6. Beliefs and status.
   Localization fix = s.report(scene);
   s.report_hypotheses(fix);
-  if (s.absolute) s.weigh(scene, fix);
+  if (s.absolute)
+    s.weigh(scene, fix);
+  else if (s.map.empty())
+    s.believe_motion(fix);
   s.remember(fix);
   return fix;
 }

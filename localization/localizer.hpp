@@ -9,6 +9,7 @@
 
 #include "geometry/floor_plan.hpp"
 #include "localization/continuity.hpp"
+#include "localization/ego_motion.hpp"
 #include "localization/integrity_monitor.hpp"
 #include "localization/localization.hpp"
 #include "localization/localization_belief.hpp"
@@ -36,6 +37,7 @@ struct LocalizerParams {
   StatusParams status;
   PoseTrustParams trust;
   ConstantVelocityParams constant_velocity;
+  EgoMotionParams ego_motion;
   CalibrationWalk calibration_walk;
   // When a pose is searched nearby, by the raw scan: where so little of the scan lies on the plan, or
   double search_below = 0.75;
@@ -75,6 +77,11 @@ class Localizer {
   /// Before a scene is made of it: gives an acquisition without odometry the path that the latest velocity predicts,
   /// and remembers the path for pose_at.
   void with_path(sensors::Acquisition& acquisition);
+
+  /// A pose set by hand: the next update starts from it, as the first one did from the initial pose, and it is not
+  /// trusted before what is seen has borne it out. Without a plan, motion goes on from it.
+  /// \param T_map_base  at the time of the next update; its covariance is positive definite
+  void set_pose(const geometry::PoseEstimate& T_map_base);
 
   /// One scene. `motion` is Acquisition::motion.
   Localization update(const perception::Scene& scene, const std::optional<geometry::PoseEstimate>& motion);

@@ -260,6 +260,42 @@ void check_constant_velocity(const ParameterCheck& check, const ConstantVelocity
   check.share("turn_share", p.turn_share);
 }
 
+void check_scan_lines(const ParameterCheck& check, const perception::ScanLineParams& p) {
+  check.at_least("min_support", p.min_support, 2);
+  check.positive("max_sigma_rad", p.max_sigma_rad);
+  check.share("least_pignistic", p.least_pignistic);
+  check.within("curved_turn_rad", p.curved_turn_rad, 0.0, pi);
+  check.within("straight_turn_rad", p.straight_turn_rad, 0.0, pi);
+  check.not_negative("curved_face_m", p.curved_face_m);
+}
+
+void check_ego_motion(const ParameterCheck& check, const EgoMotionParams& p) {
+  check_scan_lines(check.in("lines"), p.lines);
+  check.not_negative("systematic.turn_per_metre_rad", p.systematic.turn_per_metre_rad);
+  check.not_negative("systematic.turn_per_radian_rad", p.systematic.turn_per_radian_rad);
+  check.positive("min_sigma_across_m", p.min_sigma_across_m);
+  check.positive("min_sigma_angle_rad", p.min_sigma_angle_rad);
+  check.positive("min_sigma_end_m", p.min_sigma_end_m);
+  check.positive("wall_gate", p.wall_gate);
+  check.not_negative("apart_m", p.apart_m);
+  check.positive("ambiguous_gate", p.ambiguous_gate);
+  check.not_negative("same_line_m", p.same_line_m);
+  check.positive("robust_scale", p.robust_scale);
+  check.share("least_explained", p.least_explained);
+  check.positive("end_gate", p.end_gate);
+  check.share("search_below", p.search_below);
+  check.positive("search_sigma_m", p.search_sigma_m);
+  check.within("slip_turn_rad", p.slip_turn_rad, 0.0, pi);
+  check.within("unforeseen_turn_rad", p.unforeseen_turn_rad, 0.0, pi);
+  check.within("search_step_rad", p.search_step_rad, 1e-3, pi);
+  check.share("search_gain", p.search_gain);
+  check.share("search_least", p.search_least);
+  check.at_least("search_walls", p.search_walls, 1);
+  check.positive("most_unseen_m", p.most_unseen_m);
+  check.at_least("most_walls", static_cast<std::int64_t>(p.most_walls), 1);
+  check.shape("unexplained", p.unexplained);
+}
+
 void check_calibration_walk(const ParameterCheck& check, const CalibrationWalk& p) {
   check.not_negative("mounting_m", p.mounting_m);
   check.not_negative("mounting_rad", p.mounting_rad);
@@ -308,6 +344,7 @@ void check(const LocalizerParams& params) {
   check_misfit(check.in("misfit"), params.misfit);
   check_trust(check.in("trust"), params.trust);
   check_constant_velocity(check.in("constant_velocity"), params.constant_velocity);
+  check_ego_motion(check.in("ego_motion"), params.ego_motion);
   check_calibration_walk(check.in("calibration_walk"), params.calibration_walk);
   check_own(check, params);
 }

@@ -32,6 +32,7 @@ struct Localizer::State {
   RepeatedModules modules;
   GlobalSearch search;
   PoseHypotheses elsewhere;  ///< where the robot may be, while its pose is unknown or in doubt
+  EgoMotion ego_motion;      ///< since the start, while the pose is not absolute
   bool absolute;             ///< poses are in the map frame, not relative to the start
   PoseTrust trust;
   SceneFit fit;              ///< the latest pose and what it rests on
@@ -43,7 +44,8 @@ struct Localizer::State {
   bool broken_off = false;   ///< in this acquisition: much of what was followed is not seen any more
   bool jumped =
       false;  ///< in this acquisition: the pose was found some way from where it was expected, or may have been
-  bool found_elsewhere = false;  ///< in this acquisition: the pose is another one than was thought
+  bool found_elsewhere = false;                       ///< in this acquisition: the pose is another one than was thought
+  std::optional<geometry::PoseEstimate> set_by_hand;  ///< the pose at the next update
   PoseHistory history;
   MotionPredictor predictor;
   std::vector<int> observed_tracks;      ///< by observation, their ids, a workspace
@@ -58,8 +60,8 @@ struct Localizer::State {
   void expect_landmarks(const CalibratedPose& from);
   void expect_young_tracks(const geometry::Pose2& step);
   [[nodiscard]] geometry::Pose2 likeliest_first_step(const perception::Scene& scene);
-  geometry::PoseEstimate solve_motion(const perception::Scene& scene, const std::vector<tracking::Match>& matches,
-                                      const geometry::PoseEstimate& motion);
+  geometry::PoseEstimate follow_walls(const perception::Scene& scene,
+                                      const std::optional<geometry::PoseEstimate>& motion);
   void find_pose(const perception::Scene& scene, const std::vector<tracking::Match>& matches,
                  const geometry::PoseEstimate& step, bool odometry);
   void start_tracks(const perception::Scene& scene);
@@ -75,6 +77,8 @@ struct Localizer::State {
   void list_observed_tracks();
   [[nodiscard]] Integrity watch();
   void weigh(const perception::Scene& scene, Localization& fix);
+  void start_from(const geometry::PoseEstimate& pose, const geometry::PoseEstimate& step);
+  void believe_motion(Localization& fix) const;
   void remember(const Localization& fix);
 };
 

@@ -77,26 +77,6 @@ Observation observe_point(const perception::Scene& scene, const Primitive& point
   return o;
 }
 
-Observation observe_again(const Primitive& now, const Primitive& earlier, const ObservationParams& params) {
-  Observation o;
-  if (now.type == perception::PrimitiveType::kWall) {
-    o.kind = ObservationKind::kWall;
-    o.map_point = earlier.line.centroid;
-    o.map_angle = earlier.line.angle;
-    o.base_point = now.line.centroid;
-    o.base_angle = now.line.angle;
-    o.noise = line_noise(now.line, params);
-    o.plan = line_noise(earlier.line, params);
-    return o;
-  }
-  o.kind = ObservationKind::kPoint;
-  o.map_point = earlier.position;
-  o.base_point = now.position;
-  o.noise = now.position_covariance;
-  o.plan = earlier.position_covariance;
-  return o;
-}
-
 Eigen::Matrix<double, 2, 3> base_coordinates_by_pose(const geometry::Pose2& pose, const Vector2d& in_base) {
   Eigen::Matrix<double, 2, 3> J;
   J.leftCols<2>() = -pose.rotation().transpose();

@@ -32,11 +32,6 @@ struct ObservationParams {
                                         const PointLandmark& landmark, const std::vector<bool>& wall_in_use,
                                         double plan_uncertainty_m, const ObservationParams& params = {});
 
-/// A primitive against the same landmark as it was seen in an earlier scene: an observation for the motion between the
-/// two, whose "map" is the earlier base frame. Precondition: both are walls, or neither is and both have a position.
-[[nodiscard]] Observation observe_again(const perception::Primitive& now, const perception::Primitive& earlier,
-                                        const ObservationParams& params = {});
-
 /// Derivative by the pose (x, y, theta) of where a fixed point of the map lies in the base frame.
 /// \param in_base  the point in the base frame [m]
 [[nodiscard]] Eigen::Matrix<double, 2, 3> base_coordinates_by_pose(const geometry::Pose2& pose,

@@ -20,6 +20,13 @@ void PoseTrust::found(const geometry::PoseEstimate& pose) {
   strayed_ = false;
 }
 
+void PoseTrust::given(const geometry::PoseEstimate& pose) {
+  found(pose);
+  in_place_ = true;
+  unconfirmed_ = false;
+  borne_out_ = undoubted_ = 0;
+}
+
 void PoseTrust::confirmed() {
   unconfirmed_ = false;
   undoubted_ = std::max(params_.trusted_again_after, params_.trusted_again_alone_after);

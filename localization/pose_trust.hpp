@@ -42,6 +42,8 @@ class PoseTrust {
   void follow(const geometry::PoseEstimate& motion) { reckoned_ = geometry::compose(reckoned_, motion); }
   /// The pose is this one, whatever was thought before: the search over all places has found it.
   void found(const geometry::PoseEstimate& pose);
+  /// The pose is this one, as a person says, who may be wrong: it is doubted until what is seen bears it out.
+  void given(const geometry::PoseEstimate& pose);
   /// The pose has jumped, and is not trusted before a search over all places has confirmed it.
   void jumped() { unconfirmed_ = true; }
   void confirmed();

@@ -96,12 +96,6 @@ const CalibratedPose& SceneFitter::sharpen(const Scene& scene, const CalibratedP
   return by_walls_.pose;
 }
 
-geometry::PoseEstimate SceneFitter::solve_motion(const Scene& scene, const geometry::PoseEstimate& motion,
-                                                 SceneFit& fit) {
-  solver_.solve_state(uncalibrated(motion), fit.observations, scene.carry_covariance, fit.solution);
-  return fit.solution.estimate();
-}
-
 void SceneFitter::observe_landmark(const Scene& scene, int primitive, LandmarkId landmark, int track, SceneFit& fit) {
   const Primitive& seen = scene.primitives[static_cast<std::size_t>(primitive)];
   const bool wall = map_->is_wall(landmark);

@@ -72,10 +72,6 @@ class SceneFitter {
   /// `expected` where no wall is matched.
   [[nodiscard]] const CalibratedPose& sharpen(const perception::Scene& scene, const CalibratedPose& expected);
 
-  /// The motion between two scenes, from observe_again() of what was seen in both; with odometry as the prior.
-  [[nodiscard]] geometry::PoseEstimate solve_motion(const perception::Scene& scene,
-                                                    const geometry::PoseEstimate& motion, SceneFit& fit);
-
   /// The raw scan against the plan.
   [[nodiscard]] ScanMatcher& scan_matcher() { return scan_matcher_; }
 

@@ -156,6 +156,8 @@ TEST(LocalizerParams, OutOfTheirRangeAreRefusedWithWhatIsExpected) {
            "found 0, expected a whole number of at least 1"},
       Case{"constant_velocity.turn_bin_rad", [](auto& p) { p.constant_velocity.turn_bin_rad = 0.0; },
            "found 0, expected a number from 1e-04 to 3.141592653589793"},
+      Case{"ego_motion.search_step_rad", [](auto& p) { p.ego_motion.search_step_rad = 0.0; },
+           "found 0, expected a number from 0.001 to 3.141592653589793"},
       Case{"calibration_walk.harmonic_rad", [](auto& p) { p.calibration_walk.harmonic_rad = -1e-9; },
            "found -1e-09, expected a number of at least 0"},
       Case{"searched_sigma_m", [](auto& p) { p.searched_sigma_m = 0.0; }, "found 0, expected a number above 0"},

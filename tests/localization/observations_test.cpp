@@ -177,19 +177,6 @@ RC_GTEST_PROP(Observations, OfTheTruthHaveNoResidualThere, (unsigned seed)) {
   RC_ASSERT(is_of_the_truth(observe_point(scene, bearing, landmark(place), {}, kPlan_m), pose));
 }
 
-RC_GTEST_PROP(Observations, OfTheSameSeenAgainGiveTheMotion, (unsigned seed)) {
-  Random random(seed);
-  const Pose2 before = random.pose(), now = random.pose(), motion = before.inverse() * now;
-  const Segment wall = random.segment();
-  const Observation again = observe_again(wall_seen(wall, now), wall_seen(wall, before));
-  RC_ASSERT(again.kind == ObservationKind::kWall);
-  RC_ASSERT(is_of_the_truth(again, motion) && smallest_variance(again.plan) > 0.0);
-  const Vector2d place = random.place();
-  const Observation point = observe_again(point_seen(kCorner, place, now), point_seen(kCorner, place, before));
-  RC_ASSERT(point.kind == ObservationKind::kPoint);
-  RC_ASSERT(is_of_the_truth(point, motion) && smallest_variance(point.plan) > 0.0);
-}
-
 RC_GTEST_PROP(Observations, ThePlacesDerivativeByThePoseIsTheNumericOne, (unsigned seed)) {
   Random random(seed);
   const Pose2 pose = random.pose();
