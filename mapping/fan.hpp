@@ -34,9 +34,12 @@ class Fan {
 
  private:
   double x_, y_;            // apex
-  double axis_x_, axis_y_;  // unit vectors: the axis and the two edges, right and left
-  double right_x_, right_y_, left_x_, left_y_;
+  double axis_x_, axis_y_;  // unit vector
   double radius_;
+  double low_, high_;  // of the rows, from the apex
+  // Where the edges cross a row, per row above the apex; infinite for level ones.
+  double right_slope_, left_slope_;
+  bool right_is_high_, left_is_low_;  // which end of a row the edges bound
 };
 
 }  // namespace credo::mapping

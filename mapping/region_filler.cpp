@@ -11,15 +11,8 @@
 #include <utility>
 
 namespace credo::mapping {
-namespace {
 
 using evidence::FixedLogCommonality;
-
-void add_to_channel(std::int32_t* channel, int count, std::int32_t increment) {
-  for (int i = 0; i < count; ++i) FixedLogCommonality::accumulate(channel[i], increment);
-}
-
-}  // namespace
 
 /// How often the contours of each class wind around the place between two crossings.
 struct RegionFiller::Winding {
@@ -35,18 +28,30 @@ struct RegionFiller::Winding {
   [[nodiscard]] int highest() const { return static_cast<int>(std::bit_width(inside)) - 1; }
 };
 
-void RegionFiller::add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int region_class) {
-  assert(region_class >= 0 && region_class < kClasses);
-  const bool up = from.y() < to.y();
+/// \param row_from, row_to  first_centre of the heights of the ends
+void RegionFiller::add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::int32_t row_from,
+                            std::int32_t row_to, std::int16_t region_class) {
+  const bool up = row_from < row_to;
   const Eigen::Vector2d& low = up ? from : to;  // both directions of an edge must cross a row at the same place
   const Eigen::Vector2d& high = up ? to : from;
-  const std::int32_t begin = first_centre(low.y()), end = first_centre(high.y());
-  if (begin >= end) return;
   const double slope = (high.x() - low.x()) / (high.y() - low.y());
-  for (std::int32_t row = begin; row < end; ++row) {
+  const std::int32_t end = std::max(row_from, row_to);
+  for (std::int32_t row = std::min(row_from, row_to); row < end; ++row) {
     const double x = low.x() + (row + 0.5 - low.y()) * slope;
-    crossings_.push_back(
-        {row, first_centre(x), static_cast<std::int16_t>(region_class), static_cast<std::int16_t>(up ? 1 : -1)});
+    crossings_.push_back({row, first_centre(x), region_class, static_cast<std::int16_t>(up ? 1 : -1)});
+  }
+}
+
+void RegionFiller::add_contour(std::span<const Eigen::Vector2d> corners, int region_class) {
+  assert(region_class >= 0 && region_class < kClasses);
+  if (corners.empty()) return;
+  const Eigen::Vector2d* from = &corners.back();
+  std::int32_t row_from = first_centre(from->y());
+  for (const Eigen::Vector2d& to : corners) {
+    const std::int32_t row_to = first_centre(to.y());
+    if (row_to != row_from) add_edge(*from, to, row_from, row_to, static_cast<std::int16_t>(region_class));
+    from = &to;
+    row_from = row_to;
   }
 }
 
@@ -64,7 +69,8 @@ void RegionFiller::sort_by_row() {
   row_begin_.front() = 0;
 }
 
-void RegionFiller::fill_row(std::span<Crossing> row, std::span<const FixedLogCommonality> increments) {
+/// Finds the stretches of one class in a row.
+void RegionFiller::stretch_row(std::span<Crossing> row) {
   // Rows hold a few crossings, in nearly the right order: insertion sort.
   for (std::size_t i = 1; i < row.size(); ++i) {
     for (std::size_t j = i; j > 0 && row[j].column < row[j - 1].column; --j) std::swap(row[j], row[j - 1]);
@@ -73,13 +79,10 @@ void RegionFiller::fill_row(std::span<Crossing> row, std::span<const FixedLogCom
   for (std::size_t i = 0; i + 1 < row.size(); ++i) {
     winding.cross(row[i]);
     if (winding.inside == 0 || row[i].column == row[i + 1].column) continue;
-    const FixedLogCommonality& increment = increments[winding.highest()];
-    window_.for_run(row[i].row, row[i].column, row[i + 1].column,
-                    [&increment](grids::Tile& tile, int place, int count) {
-                      add_to_channel(tile.empty.data() + place, count, increment.empty);
-                      add_to_channel(tile.occupied.data() + place, count, increment.occupied);
-                      add_to_channel(tile.unknown.data() + place, count, increment.unknown);
-                    });
+    const int region_class = winding.highest();
+    window_.for_run(row[i].row, row[i].column, row[i + 1].column, [&](grids::Tile& tile, int place, int count) {
+      stretches_.push_back({&tile, static_cast<std::int16_t>(place), static_cast<std::int16_t>(count), region_class});
+    });
   }
 }
 
@@ -90,8 +93,10 @@ void RegionFiller::fill(grids::EvidentialGrid& grid, std::span<const FixedLogCom
       crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) { return a.column < b.column; });
   const int rows = static_cast<int>(row_begin_.size()) - 1;
   window_.open(grid, {{left->column, first_row_}, std::max(1, right->column - left->column), rows});
+  stretches_.clear();
   for (int row = 0; row < rows; ++row)
-    fill_row(std::span(sorted_).subspan(row_begin_[row], row_begin_[row + 1] - row_begin_[row]), increments);
+    stretch_row(std::span(sorted_).subspan(row_begin_[row], row_begin_[row + 1] - row_begin_[row]));
+  add_by_class(stretches_, increments);
   clear();
 }
 
