@@ -27,8 +27,9 @@ template <typename Work>
 }
 
 /// Times ours and the peer in turn, round by round, so that what slows the machine down slows both. The time reported
-/// is that of our part of a round; counters: the median times of a call, and the median over the rounds of peer / ours,
-/// how many times as fast we are. For benchmarks that `UseManualTime`.
+/// is that of our part of a round; counters: the median times of a call, the median over the rounds of peer / ours, how
+/// many times as fast we are, and the same of the fastest rounds of both, as on a machine that has nothing else to do.
+/// For benchmarks that `UseManualTime`.
 /// \param calls  of ours and of the peer that a round is made of
 template <typename Ours, typename Peer>
 void versus(benchmark::State& state, int calls, const Ours& ours, const std::string& peer_name, const Peer& peer) {
@@ -45,6 +46,8 @@ void versus(benchmark::State& state, int calls, const Ours& ours, const std::str
   state.counters["ours_us"] = median(our_us);
   state.counters[peer_name + "_us"] = median(peer_us);
   state.counters[peer_name + "/ours"] = median(ratios);
+  state.counters[peer_name + "/ours_best"] = std::ranges::min(peer_us) / std::ranges::min(our_us);
+  state.counters["ours_best_us"] = std::ranges::min(our_us);
 }
 
 /// The same without a peer.

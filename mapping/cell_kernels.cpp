@@ -21,25 +21,53 @@ using Quad [[gnu::vector_size(16)]] = std::int32_t;
 
 constexpr Lanes kFirstLanes{0, 1, 2, 3, 4, 5, 6, 7};
 
-/// FixedLogCommonality::accumulate for as many cells as the vector has numbers.
 template <typename Vector>
-[[gnu::always_inline]] inline void accumulate(std::int32_t* cells, const Vector& increment) {
-  Vector channel;
-  std::memcpy(&channel, cells, sizeof(channel));
-  const Vector least = FixedLogCommonality::kFloor - increment;
-  channel = (channel > least ? channel : least) + increment;
-  std::memcpy(cells, &channel, sizeof(channel));
+[[gnu::always_inline]] inline void load(const std::int32_t* cells, Vector& numbers) {
+  std::memcpy(&numbers, cells, sizeof(numbers));
 }
 
-/// Adds to `count` cells of a channel; the cells after them, or before them at the end of the tile, are written too,
-/// with what they hold.
-[[gnu::always_inline]] inline void add_to_row(std::int32_t* channel, int place, int count, std::int32_t increment) {
-  const Lanes all = increment - Lanes{};
-  for (; count >= kLanes; count -= kLanes, place += kLanes) accumulate(channel + place, all);
-  if (count == 0) return;
+template <typename Vector>
+[[gnu::always_inline]] inline void store(const Vector& numbers, std::int32_t* cells) {
+  std::memcpy(cells, &numbers, sizeof(numbers));
+}
+
+/// FixedLogCommonality::accumulate for as many cells as the vector has numbers.
+template <typename Vector>
+[[gnu::always_inline]] inline void accumulate(Vector& channel, const Vector& increment) {
+  const Vector least = FixedLogCommonality::kFloor - increment;
+  channel = (channel > least ? channel : least) + increment;
+}
+
+/// Adds to the three channels of neighbouring cells. All are loaded before the first is stored: the channels lie a
+/// multiple of 4 KB apart, and a load after a store to such an address would wait for it.
+template <typename Vector>
+[[gnu::always_inline]] inline void add_to_cells(Tile& tile, int place, const Vector& empty, const Vector& occupied,
+                                                const Vector& unknown) {
+  Vector e, o, u;
+  load(tile.empty.data() + place, e);
+  load(tile.occupied.data() + place, o);
+  load(tile.unknown.data() + place, u);
+  accumulate(e, empty);
+  accumulate(o, occupied);
+  accumulate(u, unknown);
+  store(e, tile.empty.data() + place);
+  store(o, tile.occupied.data() + place);
+  store(u, tile.unknown.data() + place);
+}
+
+/// Adds to all cells of a stretch. The cells that fill the last block up are written too, with what they hold.
+[[gnu::always_inline]] inline void add_to_stretch(Tile& tile, const Stretch& stretch,
+                                                  const FixedLogCommonality& increment) {
+  const Lanes empty = increment.empty - Lanes{}, occupied = increment.occupied - Lanes{},
+              unknown = increment.unknown - Lanes{};
+  int place = stretch.place;
+  const int end = place + stretch.count;
+  for (; place + kLanes <= end; place += kLanes) add_to_cells(tile, place, empty, occupied, unknown);
+  if (place == end) return;
   const int first = std::min(place, Tile::kCells - kLanes);
-  const Lanes lane = kFirstLanes + (first - place);
-  accumulate(channel + first, Lanes(all & (lane >= 0) & (lane < count)));
+  const Lanes lane = kFirstLanes + first;
+  const Lanes inside = (lane >= place) & (lane < end);
+  add_to_cells(tile, first, Lanes(empty & inside), Lanes(occupied & inside), Lanes(unknown & inside));
 }
 
 /// Where in the table the cells of a stretch look, from the first on; those that fill the last block up look at the
@@ -70,28 +98,23 @@ template <typename Vector>
 [[gnu::always_inline]] inline void add_entries(Tile& tile, int place, const TableEntry* entries,
                                                const std::int32_t* entry) {
   std::array<Quad, 4> q;
-  for (int i = 0; i < 4; ++i) std::memcpy(&q[i], entries + entry[i], sizeof(Quad));
+  for (int i = 0; i < 4; ++i) load(&entries[entry[i]].increment.empty, q[i]);
   const Quad low_01 = __builtin_shufflevector(q[0], q[1], 0, 4, 1, 5);  // empty, empty, occupied, occupied
   const Quad low_23 = __builtin_shufflevector(q[2], q[3], 0, 4, 1, 5);
   const Quad high_01 = __builtin_shufflevector(q[0], q[1], 2, 6, 3, 7);  // unknown, unknown
   const Quad high_23 = __builtin_shufflevector(q[2], q[3], 2, 6, 3, 7);
-  accumulate(tile.empty.data() + place, Quad(__builtin_shufflevector(low_01, low_23, 0, 1, 4, 5)));
-  accumulate(tile.occupied.data() + place, Quad(__builtin_shufflevector(low_01, low_23, 2, 3, 6, 7)));
-  accumulate(tile.unknown.data() + place, Quad(__builtin_shufflevector(high_01, high_23, 0, 1, 4, 5)));
+  add_to_cells(tile, place, Quad(__builtin_shufflevector(low_01, low_23, 0, 1, 4, 5)),
+               Quad(__builtin_shufflevector(low_01, low_23, 2, 3, 6, 7)),
+               Quad(__builtin_shufflevector(high_01, high_23, 0, 1, 4, 5)));
 }
 
 }  // namespace
 
-void add_by_class(std::span<const Stretch> stretches, std::span<const FixedLogCommonality> increments,
+void add_by_class(Tile& tile, std::span<const Stretch> stretches, std::span<const FixedLogCommonality> increments,
                   grids::Instructions instructions) {
   grids::run_with(
       instructions, [&]() __attribute__((always_inline)) {
-        for (const Stretch& stretch : stretches) {
-          const FixedLogCommonality& increment = increments[stretch.region_class];
-          add_to_row(stretch.tile->empty.data(), stretch.place, stretch.count, increment.empty);
-          add_to_row(stretch.tile->occupied.data(), stretch.place, stretch.count, increment.occupied);
-          add_to_row(stretch.tile->unknown.data(), stretch.place, stretch.count, increment.unknown);
-        }
+        for (const Stretch& stretch : stretches) add_to_stretch(tile, stretch, increments[stretch.region_class]);
       });
 }
 

@@ -12,19 +12,19 @@
 // The inner loops of the painters: evidence added to stretches of cells.
 namespace credo::mapping {
 
-/// Neighbouring cells of a row of one tile: `count` from `place` in its arrays.
+/// Neighbouring cells of a row of a tile: `count` from `place` in its arrays.
 struct Stretch {
-  grids::Tile* tile = nullptr;
   std::int16_t place = 0;
   std::int16_t count = 0;         ///< 1 to Tile::kSide
   std::int32_t region_class = 0;  ///< of all its cells
 };
 
 /// Adds increments[region_class] to every cell of every stretch.
-void add_by_class(std::span<const Stretch> stretches, std::span<const evidence::FixedLogCommonality> increments,
+void add_by_class(grids::Tile& tile, std::span<const Stretch> stretches,
+                  std::span<const evidence::FixedLogCommonality> increments,
                   grids::Instructions instructions = grids::best_instructions());
 
-/// A stretch within a fan; the centre of its first cell from the apex, in cells.
+/// Neighbouring cells of a row of one tile, within a fan; the centre of its first cell from the apex, in cells.
 struct FanStretch {
   grids::Tile* tile = nullptr;
   std::int16_t place = 0;

@@ -242,18 +242,19 @@ ScanPainter::Counts ScanPainter::paint(grids::EvidentialGrid& grid, const Pose2&
   const Counts counts = classify(ranges_m, reliability);
   place(T_map_base, path, time);
   join();
-  double reach = 0.0;  // in metres, of the farthest beam
   const Eigen::Vector2d here = T_map_base * range_finder_.T_base_sensor.translation();
-  for (const Beam& beam : beams_) reach = std::max(reach, std::max(beam.free_m, beam.far_m));
-  reach += 2.0 * georeference_.resolution_m;
+  const Eigen::Vector2d origin(georeference_.origin_x_m, georeference_.origin_y_m);
+  const double most_m = std::max(range_finder_.range_max_m, 1.0);
+  double reach = 0.0, moved = 0.0;  // of the longest beam [m]; how far the sensor comes within the scan [m^2]
   for (const Beam& beam : beams_) {
-    const Eigen::Vector2d moved = beam.origin * georeference_.resolution_m - here +
-                                  Eigen::Vector2d(georeference_.origin_x_m, georeference_.origin_y_m);
-    if (!(moved.norm() <= std::max(range_finder_.range_max_m, 1.0)))
-      throw std::out_of_range("the motion given with a scan carries the sensor " + std::to_string(moved.norm()) +
+    const double square = (beam.origin * georeference_.resolution_m + origin - here).squaredNorm();
+    if (!(square <= most_m * most_m))
+      throw std::out_of_range("the motion given with a scan carries the sensor " + std::to_string(std::sqrt(square)) +
                               " m away within the scan: leave the motion out or correct it");
-    reach = std::max(reach, moved.norm() + std::max(beam.free_m, beam.far_m) + 2.0 * georeference_.resolution_m);
+    moved = std::max(moved, square);
+    reach = std::max(reach, std::max(beam.free_m, beam.far_m));
   }
+  reach += std::sqrt(moved) + 2.0 * georeference_.resolution_m;
   static_cast<void>(georeference_.cell_at(here - Eigen::Vector2d(reach, reach)));
   static_cast<void>(georeference_.cell_at(here + Eigen::Vector2d(reach, reach)));
   filler_.clear();
