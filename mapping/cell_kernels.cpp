@@ -70,42 +70,56 @@ template <typename Vector>
   add_to_cells(tile, first, Lanes(empty & inside), Lanes(occupied & inside), Lanes(unknown & inside));
 }
 
-/// Where in the table the cells of a stretch look, from the first on; those that fill the last block up look at the
-/// vacuous entry.
-[[gnu::always_inline]] inline void look_up(const FanStretch& stretch, const FanTable& table, std::int32_t* entry) {
+/// Where in the table the cells of a block look; those that fill it up look at the vacuous entry.
+[[gnu::always_inline]] inline void look_up(const FanBlock& block, const FanTable& table, std::int32_t* entry) {
   const std::int32_t vacuous = static_cast<std::int32_t>(table.entries.size()) - 1;
   const float last_row = static_cast<float>(vacuous / FanTable::kAngleBins - 1);
   const float last_angle = static_cast<float>(FanTable::kAngleBins - 1);
-  const float y = stretch.y;
-  for (std::int32_t begin = 0; begin < stretch.count; begin += kLanes) {
-    for (std::int32_t lane = 0; lane < kLanes; ++lane) {
-      const std::int32_t i = begin + lane;
-      const float x = stretch.x + static_cast<float>(i);
-      const float square = std::max(x * x + y * y, 1e-12F);
-      const float across = table.axis_x * y - table.axis_y * x;
-      const float distance = std::sqrt(square);
-      const float row =
-          std::max(distance * table.rows_per_cell, distance * table.fine_rows_per_cell + table.first_fine_row);
-      const float angle = across * across / square * table.angle_bins;
-      const std::int32_t found = static_cast<std::int32_t>(std::min(row, last_row)) * FanTable::kAngleBins +
-                                 static_cast<std::int32_t>(std::min(angle, last_angle));
-      entry[i] = i < stretch.count ? found : vacuous;
-    }
+  for (std::int32_t i = 0; i < kLanes; ++i) {
+    const float x = block.x + static_cast<float>(i), y = block.y;
+    const float square = std::max(x * x + y * y, 1e-12F);
+    const float across = table.axis_x * y - table.axis_y * x;
+    const float distance = std::sqrt(square);
+    const float row =
+        std::max(distance * table.rows_per_cell, distance * table.fine_rows_per_cell + table.first_fine_row);
+    const float angle = across * across / square * table.angle_bins;
+    const std::int32_t found = static_cast<std::int32_t>(std::min(row, last_row)) * FanTable::kAngleBins +
+                               static_cast<std::int32_t>(std::min(angle, last_angle));
+    entry[i] = i < block.count ? found : vacuous;
   }
 }
 
-/// Adds four table entries to four neighbouring cells: their increments, side by side, become those of the channels.
+/// Adds eight table entries to eight neighbouring cells: their increments, side by side, become those of the channels.
 [[gnu::always_inline]] inline void add_entries(Tile& tile, int place, const TableEntry* entries,
                                                const std::int32_t* entry) {
-  std::array<Quad, 4> q;
-  for (int i = 0; i < 4; ++i) load(&entries[entry[i]].increment.empty, q[i]);
-  const Quad low_01 = __builtin_shufflevector(q[0], q[1], 0, 4, 1, 5);  // empty, empty, occupied, occupied
-  const Quad low_23 = __builtin_shufflevector(q[2], q[3], 0, 4, 1, 5);
-  const Quad high_01 = __builtin_shufflevector(q[0], q[1], 2, 6, 3, 7);  // unknown, unknown
-  const Quad high_23 = __builtin_shufflevector(q[2], q[3], 2, 6, 3, 7);
-  add_to_cells(tile, place, Quad(__builtin_shufflevector(low_01, low_23, 0, 1, 4, 5)),
-               Quad(__builtin_shufflevector(low_01, low_23, 2, 3, 6, 7)),
-               Quad(__builtin_shufflevector(high_01, high_23, 0, 1, 4, 5)));
+  std::array<Lanes, 4> pair;  // entries i and i + 4
+  for (int i = 0; i < 4; ++i) {
+    Quad low, high;
+    load(&entries[entry[i]].increment.empty, low);
+    load(&entries[entry[i + 4]].increment.empty, high);
+    pair[i] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  // empty, empty, occupied, occupied; then unknown, unknown
+  const Lanes low_01 = __builtin_shufflevector(pair[0], pair[1], 0, 8, 1, 9, 4, 12, 5, 13);
+  const Lanes low_23 = __builtin_shufflevector(pair[2], pair[3], 0, 8, 1, 9, 4, 12, 5, 13);
+  const Lanes high_01 = __builtin_shufflevector(pair[0], pair[1], 2, 10, 3, 11, 6, 14, 7, 15);
+  const Lanes high_23 = __builtin_shufflevector(pair[2], pair[3], 2, 10, 3, 11, 6, 14, 7, 15);
+  add_to_cells(tile, place, Lanes(__builtin_shufflevector(low_01, low_23, 0, 1, 8, 9, 4, 5, 12, 13)),
+               Lanes(__builtin_shufflevector(low_01, low_23, 2, 3, 10, 11, 6, 7, 14, 15)),
+               Lanes(__builtin_shufflevector(high_01, high_23, 0, 1, 8, 9, 4, 5, 12, 13)));
+}
+
+/// Adds to the cells of a block what look_up has found for them.
+[[gnu::always_inline]] inline void add_to_block(const FanBlock& block, const TableEntry* entries,
+                                                const std::int32_t* entry) {
+  Tile& tile = *block.tile;
+  if (block.place + kLanes <= Tile::kCells) return add_entries(tile, block.place, entries, entry);
+  for (int i = 0; i < block.count; ++i) {  // at the end of the tile there is no room for eight
+    const FixedLogCommonality& increment = entries[entry[i]].increment;
+    FixedLogCommonality::accumulate(tile.empty[block.place + i], increment.empty);
+    FixedLogCommonality::accumulate(tile.occupied[block.place + i], increment.occupied);
+    FixedLogCommonality::accumulate(tile.unknown[block.place + i], increment.unknown);
+  }
 }
 
 }  // namespace
@@ -118,24 +132,17 @@ void add_by_class(Tile& tile, std::span<const Stretch> stretches, std::span<cons
       });
 }
 
-void add_from_table(std::span<const FanStretch> stretches, const FanTable& table, grids::Instructions instructions) {
+void add_from_table(std::span<const FanBlock> blocks, const FanTable& table, grids::Instructions instructions) {
   grids::run_with(
       instructions, [&]() __attribute__((always_inline)) {
-        std::array<std::int32_t, Tile::kSide> entry;
-        const TableEntry* const entries = table.entries.data();
-        for (const FanStretch& stretch : stretches) {
-          look_up(stretch, table, entry.data());
-          const int room =
-              Tile::kCells - stretch.place;  // the last four are filled up with vacuous entries where they fit
-          int i = 0;
-          for (; i < stretch.count && i + 4 <= room; i += 4)
-            add_entries(*stretch.tile, stretch.place + i, entries, entry.data() + i);
-          for (; i < stretch.count; ++i) {
-            const FixedLogCommonality& increment = entries[entry[i]].increment;
-            FixedLogCommonality::accumulate(stretch.tile->empty[stretch.place + i], increment.empty);
-            FixedLogCommonality::accumulate(stretch.tile->occupied[stretch.place + i], increment.occupied);
-            FixedLogCommonality::accumulate(stretch.tile->unknown[stretch.place + i], increment.unknown);
-          }
+        // Looked up many at a time, so that no place in the table is waited for.
+        constexpr std::size_t kBatch = 64;
+        std::array<std::int32_t, kBatch * kLanes> entry;
+        for (std::size_t begin = 0; begin < blocks.size(); begin += kBatch) {
+          const std::size_t count = std::min(kBatch, blocks.size() - begin);
+          for (std::size_t i = 0; i < count; ++i) look_up(blocks[begin + i], table, entry.data() + i * kLanes);
+          for (std::size_t i = 0; i < count; ++i)
+            add_to_block(blocks[begin + i], table.entries.data(), entry.data() + i * kLanes);
         }
       });
 }

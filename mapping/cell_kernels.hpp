@@ -24,11 +24,11 @@ void add_by_class(grids::Tile& tile, std::span<const Stretch> stretches,
                   std::span<const evidence::FixedLogCommonality> increments,
                   grids::Instructions instructions = grids::best_instructions());
 
-/// Neighbouring cells of a row of one tile, within a fan; the centre of its first cell from the apex, in cells.
-struct FanStretch {
+/// Up to eight neighbouring cells of a row of one tile; the centre of the first from the apex of a fan, in cells.
+struct FanBlock {
   grids::Tile* tile = nullptr;
   std::int16_t place = 0;
-  std::int16_t count = 0;  ///< 1 to Tile::kSide
+  std::int16_t count = 0;  ///< 1 to kLanes
   float x = 0.0F;
   float y = 0.0F;
 };
@@ -54,8 +54,8 @@ struct FanTable {
   float angle_bins = 1.0F;      ///< per squared sine
 };
 
-/// Adds to every cell of every stretch what the table holds for its distance and angle.
-void add_from_table(std::span<const FanStretch> stretches, const FanTable& table,
+/// Adds to every cell of every block what the table holds for its distance and angle.
+void add_from_table(std::span<const FanBlock> blocks, const FanTable& table,
                     grids::Instructions instructions = grids::best_instructions());
 
 }  // namespace credo::mapping

@@ -33,15 +33,4 @@ Fan::Fan(const grids::Georeference& georeference, const geometry::Pose2& pose, d
 
 CellRun Fan::rows() const { return {first_centre(y_ + low_), first_centre(y_ + high_)}; }
 
-CellRun Fan::run(int row) const {
-  const double dy = row + 0.5 - y_;
-  const double half = std::sqrt(std::max(0.0, radius_ * radius_ - dy * dy));
-  // In this order, a nan, of a level edge in its own row, bounds nothing.
-  const double right = dy * right_slope_, left = dy * left_slope_;
-  const double low = std::max(std::max(-half, right_is_high_ ? -half : right), left_is_low_ ? left : -half);
-  const double high = std::min(std::min(half, right_is_high_ ? right : half), left_is_low_ ? half : left);
-  if (!(low < high)) return {};
-  return {first_centre(x_ + low), first_centre(x_ + high)};
-}
-
 }  // namespace credo::mapping

@@ -83,26 +83,29 @@ void FanPainter::forget_tables_before(std::size_t bytes) {
 }
 
 void FanPainter::paint_rows(const Fan& fan, const Table& table, double reading_m) {
-  stretches_.clear();
+  blocks_.clear();
   const CellRun rows = fan.rows();
   for (int row = rows.begin; row < rows.end; ++row) {
     const CellRun run = fan.run(row);
     const float y = static_cast<float>(row + 0.5 - fan.y());
-    int column = run.begin;
+    float x = static_cast<float>(run.begin + 0.5 - fan.x());
     window_.for_run(row, run.begin, run.end, [&](grids::Tile& tile, int place, int count) {
-      stretches_.push_back({&tile, static_cast<std::int16_t>(place), static_cast<std::int16_t>(count),
-                            static_cast<float>(column + 0.5 - fan.x()), y});
-      column += count;
+      for (const int end = place + count; place < end;) {
+        const int cells = std::min(grids::kLanes, end - place);
+        blocks_.push_back({&tile, static_cast<std::int16_t>(place), static_cast<std::int16_t>(cells), x, y});
+        place += cells;
+        x += static_cast<float>(cells);
+      }
     });
   }
   const double widest = std::sin(half_width_rad_);
-  add_from_table(stretches_, {.entries = table.entries,
-                              .axis_x = static_cast<float>(fan.axis_x()),
-                              .axis_y = static_cast<float>(fan.axis_y()),
-                              .rows_per_cell = static_cast<float>(georeference_.resolution_m / row_m_),
-                              .fine_rows_per_cell = static_cast<float>(georeference_.resolution_m / fine_row_m_),
-                              .first_fine_row = static_cast<float>(table.reading_row - reading_m / fine_row_m_),
-                              .angle_bins = static_cast<float>(FanTable::kAngleBins / (widest * widest))});
+  add_from_table(blocks_, {.entries = table.entries,
+                           .axis_x = static_cast<float>(fan.axis_x()),
+                           .axis_y = static_cast<float>(fan.axis_y()),
+                           .rows_per_cell = static_cast<float>(georeference_.resolution_m / row_m_),
+                           .fine_rows_per_cell = static_cast<float>(georeference_.resolution_m / fine_row_m_),
+                           .first_fine_row = static_cast<float>(table.reading_row - reading_m / fine_row_m_),
+                           .angle_bins = static_cast<float>(FanTable::kAngleBins / (widest * widest))});
 }
 
 void FanPainter::paint(grids::EvidentialGrid& grid, const geometry::Pose2& pose, double reading_m, double reliability) {

@@ -67,7 +67,7 @@ class FanPainter {
   std::size_t table_bytes_ = 0;
   std::array<double, FanTable::kAngleBins> angles_rad_{};  ///< from the axis, in the middle of the bins
   TileWindow window_;
-  std::vector<FanStretch> stretches_;
+  std::vector<FanBlock> blocks_;
 };
 
 }  // namespace credo::mapping
