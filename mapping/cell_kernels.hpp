@@ -12,10 +12,10 @@
 // The inner loops of the painters: evidence added to stretches of cells.
 namespace credo::mapping {
 
-/// Neighbouring cells of a row of a tile: `count` from `place` in its arrays.
+/// Cells that follow one another in the arrays of a tile: `count` from `place` on.
 struct Stretch {
   std::int16_t place = 0;
-  std::int16_t count = 0;         ///< 1 to Tile::kSide
+  std::int16_t count = 0;         ///< 1 to Tile::kCells
   std::int32_t region_class = 0;  ///< of all its cells
 };
 

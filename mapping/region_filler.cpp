@@ -16,6 +16,22 @@ namespace credo::mapping {
 
 using evidence::FixedLogCommonality;
 
+namespace {
+
+/// Rows that fill a tile from side to side follow one another in its arrays: they become one stretch.
+void append(std::vector<Stretch>& stretches, int place, int count, int region_class) {
+  if (!stretches.empty()) {
+    Stretch& last = stretches.back();
+    if (last.place + last.count == place && last.region_class == region_class) {
+      last.count = static_cast<std::int16_t>(last.count + count);
+      return;
+    }
+  }
+  stretches.push_back({static_cast<std::int16_t>(place), static_cast<std::int16_t>(count), region_class});
+}
+
+}  // namespace
+
 /// How often the contours of each class wind around the place between two crossings.
 struct RegionFiller::Winding {
   std::array<std::int16_t, kClasses> turns{};
@@ -99,9 +115,8 @@ void RegionFiller::find_stretches(std::int32_t row, std::span<Crossing> crossing
     while (begin < crossings[i + 1].column) {  // tile by tile
       const std::int32_t tile_column = begin >> grids::Tile::kShift;
       const std::int32_t end = std::min(crossings[i + 1].column, (tile_column + 1) << grids::Tile::kShift);
-      stretches_[tile_column - first_tile_column_].push_back(
-          {static_cast<std::int16_t>(grids::place_in_tile({begin, row})), static_cast<std::int16_t>(end - begin),
-           winding.highest()});
+      const int place = grids::place_in_tile({begin, row});
+      append(stretches_[tile_column - first_tile_column_], place, end - begin, winding.highest());
       begin = end;
     }
   }
