@@ -21,7 +21,7 @@ struct RunOptions {
   int picture_moments = 6;
   double resolution_m = 0.05;
   std::string readout = "normalized";
-  std::vector<std::array<double, 4>> poses_at;  ///< set by hand: time [s], x [m], y [m], theta [rad]
+  std::vector<std::array<double, 4>> poses_at{};  ///< set by hand: time [s], x [m], y [m], theta [rad]
   bool force = false;
 };
 

@@ -3,8 +3,12 @@
 
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "geometry/pose.hpp"
 #include "grids/georeference.hpp"
+#include "mapping/tile_window.hpp"
 
 namespace credo::mapping {
 
@@ -34,9 +38,23 @@ class Fan {
 
  private:
   double x_, y_;            // apex
-  double axis_x_, axis_y_;  // unit vectors: the axis and the two edges, right and left
-  double right_x_, right_y_, left_x_, left_y_;
+  double axis_x_, axis_y_;  // unit vector
   double radius_;
+  double low_, high_;  // of the rows, from the apex
+  // Where the edges cross a row, per row above the apex; infinite for level ones.
+  double right_slope_, left_slope_;
+  bool right_is_high_, left_is_low_;  // which end of a row the edges bound
 };
+
+inline CellRun Fan::run(int row) const {
+  const double dy = row + 0.5 - y_;
+  const double half = std::sqrt(std::max(0.0, radius_ * radius_ - dy * dy));
+  // In this order, a nan, of a level edge in its own row, bounds nothing.
+  const double right = dy * right_slope_, left = dy * left_slope_;
+  const double low = std::max(std::max(-half, right_is_high_ ? -half : right), left_is_low_ ? left : -half);
+  const double high = std::min(std::min(half, right_is_high_ ? right : half), left_is_low_ ? half : left);
+  const bool some = low < high;  // no branch: it would be hard to foretell
+  return {first_centre(x_ + (some ? low : 0.0)), first_centre(x_ + (some ? high : 0.0))};
+}
 
 }  // namespace credo::mapping

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grids/evidential_grid.hpp"
+#include "mapping/cell_kernels.hpp"
 #include "mapping/evidence_levels.hpp"
 #include "mapping/fan.hpp"
 #include "mapping/sonar_model.hpp"
@@ -20,8 +21,6 @@ namespace credo::mapping {
 /// 5.2). Increments come from tables over reading, distance and angle, made when first needed.
 class FanPainter {
  public:
-  static constexpr int kAngleBins = 16;  ///< from the axis to the edge, of equal steps in the squared sine
-
   /// \throws std::invalid_argument if the resolution does not fit the ring.
   FanPainter(AnySonarModel model, const sensors::SonarRing& ring, const grids::Georeference& georeference);
 
@@ -33,26 +32,27 @@ class FanPainter {
              double reliability);
 
  private:
-  /// Increments of one reading at one level, by distance (rows) and angle.
+  /// Increments of one reading at one level.
   struct Table {
-    double reading_m = 0.0;  ///< that it was made for; distances are shifted so that a reading near to it fits
-    std::vector<std::array<evidence::FixedLogCommonality, kAngleBins>> rows;
+    std::vector<TableEntry> entries;  ///< FanTable::kAngleBins to a row; the last is vacuous
+    double reading_row = 0.0;         ///< where the reading itself is among the fine rows
   };
   [[nodiscard]] const Table& table(double reading_m, int level);
   /// Makes room for another table: all are dropped where they would take too much memory, to be made again.
   void forget_tables_before(std::size_t bytes);
-  /// \param shift_m  added to distances before they are looked up
-  void paint_rows(const Fan& fan, const Table& table, double shift_m);
+  void paint_rows(const Fan& fan, const Table& table, double reading_m);
 
   AnySonarModel model_;
   grids::Georeference georeference_;
   double half_width_rad_ = 0.0;
-  double reading_bin_m_ = 0.0;  ///< steps of the tables
-  double rho_bin_m_ = 0.0;
+  double range_max_m_ = 0.0;
+  double row_m_ = 0.0;  ///< length of a row of the tables
+  double fine_row_m_ = 0.0;
   std::vector<Table> tables_;  ///< by reading, then level; the last reading is "no echo"
-  std::size_t readings_ = 0;
   std::size_t table_bytes_ = 0;
+  std::array<double, FanTable::kAngleBins> angles_rad_{};  ///< from the axis, in the middle of the bins
   TileWindow window_;
+  std::vector<FanBlock> blocks_;
 };
 
 }  // namespace credo::mapping

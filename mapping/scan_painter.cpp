@@ -60,7 +60,10 @@ ScanPainter::ScanPainter(const sensors::RangeFinder& range_finder, const grids::
   check(range_finder, georeference, params);
   const double half = 0.5 * std::abs(range_finder.angle_increment_rad);
   touching_ = half <= params.max_half_sector_rad;
-  half_sector_rad_ = std::copysign(std::min(half, params.max_half_sector_rad), range_finder.angle_increment_rad);
+  const double half_sector_rad =
+      std::copysign(std::min(half, params.max_half_sector_rad), range_finder.angle_increment_rad);
+  half_sector_ = {std::cos(half_sector_rad), std::sin(half_sector_rad)};
+  cells_per_metre_ = 1.0 / georeference.resolution_m;
   for (int beam = 0; beam < range_finder.count; ++beam) {
     const double angle = range_finder.beam_angle(beam);
     directions_.emplace_back(std::cos(angle), std::sin(angle));
@@ -172,68 +175,62 @@ void ScanPainter::join() {
   }
 }
 
-void ScanPainter::outline() {
-  const double cells_per_metre = 1.0 / georeference_.resolution_m;
-  const double c = std::cos(half_sector_rad_), s = std::sin(half_sector_rad_);
-  for (Beam& beam : beams_) {
-    const Eigen::Vector2d start = turned(beam.direction, c, -s), end = turned(beam.direction, c, s);
-    const auto ring = [&](double radius_m, Eigen::Vector2d& at_start, Eigen::Vector2d& at_tip,
-                          Eigen::Vector2d& at_end) {
-      const double radius = radius_m * cells_per_metre;
-      at_start = beam.origin + radius * start;
-      at_tip = beam.origin + radius * beam.direction;
-      at_end = beam.origin + radius * end;
-    };
-    ring(beam.free_m, beam.free_start, beam.free_tip, beam.free_end);
-    if (beam.hit_class < 0) continue;
-    ring(beam.near_m, beam.near_start, beam.near_tip, beam.near_end);
-    ring(beam.far_m, beam.far_start, beam.far_tip, beam.far_end);
-  }
-  for (std::size_t i = 0; i + 1 < beams_.size(); ++i) {
-    if (!beams_[i].joined) continue;
-    Beam& next = beams_[i + 1];
-    beams_[i].free_end = next.free_start = 0.5 * (beams_[i].free_tip + next.free_tip);
-    beams_[i].near_end = next.near_start = 0.5 * (beams_[i].near_tip + next.near_tip);
-    beams_[i].far_end = next.far_start = 0.5 * (beams_[i].far_tip + next.far_tip);
-  }
+/// Where a beam meets an outline, in cells.
+Eigen::Vector2d ScanPainter::tip(std::size_t beam, Outline outline) const {
+  const Beam& b = beams_[beam];
+  return b.origin + b.*outline * cells_per_metre_ * b.direction;
+}
+
+/// Where an outline enters a beam's sector: half-way from the beam before where both hit one surface.
+Eigen::Vector2d ScanPainter::start(std::size_t beam, Outline outline) const {
+  if (beam > 0 && beams_[beam - 1].joined) return 0.5 * (tip(beam - 1, outline) + tip(beam, outline));
+  const Beam& b = beams_[beam];
+  return b.origin + b.*outline * cells_per_metre_ * turned(b.direction, half_sector_.x(), -half_sector_.y());
+}
+
+/// Where it leaves it.
+Eigen::Vector2d ScanPainter::end(std::size_t beam, Outline outline) const {
+  if (beams_[beam].joined) return 0.5 * (tip(beam, outline) + tip(beam + 1, outline));
+  const Beam& b = beams_[beam];
+  return b.origin + b.*outline * cells_per_metre_ * turned(b.direction, half_sector_.x(), half_sector_.y());
 }
 
 /// Sectors of one class that touch make one contour.
-void ScanPainter::add_contours() {
-  filler_.clear();
-  const auto run = [this](const Eigen::Vector2d& a, const Eigen::Vector2d& b, int c) { filler_.add_edge(a, b, c); };
-  const Beam* before = nullptr;     // the beam before, where its free part is to be continued or closed
-  const Beam* run_begin = nullptr;  // the first beam of its contour
-  const auto close = [&] {
-    run(before->free_end, before->origin, before->free_class);
-    run(before->origin, run_begin->origin, before->free_class);
-  };
-  for (std::size_t i = 0; i < beams_.size(); ++i) {
-    const Beam& beam = beams_[i];
-    const bool continues = before != nullptr && before->free_class == beam.free_class && (touching_ || before->joined);
-    if (before != nullptr && !continues) close();
-    before = beam.free_class >= 0 ? &beam : nullptr;
-    if (beam.free_class >= 0) {
-      if (continues) {
-        run(beams_[i - 1].free_end, beam.free_start, beam.free_class);
-      } else {
-        run_begin = &beam;
-        run(beam.origin, beam.free_start, beam.free_class);
+void ScanPainter::add_free_contours() {
+  for (std::size_t first = 0, last = 0; first < beams_.size(); first = last + 1) {
+    last = first;
+    const int free_class = beams_[first].free_class;
+    if (free_class < 0) continue;
+    corners_ = {beams_[first].origin, start(first, &Beam::free_m), tip(first, &Beam::free_m)};
+    for (; last + 1 < beams_.size() && beams_[last + 1].free_class == free_class; ++last) {
+      if (!beams_[last].joined) {
+        if (!touching_) break;
+        corners_.push_back(end(last, &Beam::free_m));
+        corners_.push_back(start(last + 1, &Beam::free_m));
       }
-      run(beam.free_start, beam.free_tip, beam.free_class);
-      run(beam.free_tip, beam.free_end, beam.free_class);
+      corners_.push_back(tip(last + 1, &Beam::free_m));
     }
-    if (beam.hit_class < 0) continue;
-    const bool open_start = i > 0 && beams_[i - 1].joined && beams_[i - 1].hit_class == beam.hit_class;
-    const bool open_end = beam.joined && beams_[i + 1].hit_class == beam.hit_class;
-    run(beam.far_start, beam.far_tip, beam.hit_class);
-    run(beam.far_tip, beam.far_end, beam.hit_class);
-    if (!open_end) run(beam.far_end, beam.near_end, beam.hit_class);
-    run(beam.near_end, beam.near_tip, beam.hit_class);
-    run(beam.near_tip, beam.near_start, beam.hit_class);
-    if (!open_start) run(beam.near_start, beam.far_start, beam.hit_class);
+    corners_.push_back(end(last, &Beam::free_m));
+    corners_.push_back(beams_[last].origin);
+    filler_.add_contour(corners_, free_class);
   }
-  if (before != nullptr) close();
+}
+
+/// What hits one surface makes one contour: along its far side, and back along its near one.
+void ScanPainter::add_hit_contours() {
+  for (std::size_t first = 0, last = 0; first < beams_.size(); first = last + 1) {
+    last = first;
+    const int hit_class = beams_[first].hit_class;
+    if (hit_class < 0) continue;
+    while (beams_[last].joined && beams_[last + 1].hit_class == hit_class) ++last;
+    corners_ = {start(first, &Beam::far_m)};
+    for (std::size_t i = first; i <= last; ++i) corners_.push_back(tip(i, &Beam::far_m));
+    corners_.push_back(end(last, &Beam::far_m));
+    corners_.push_back(end(last, &Beam::near_m));
+    for (std::size_t i = last + 1; i > first; --i) corners_.push_back(tip(i - 1, &Beam::near_m));
+    corners_.push_back(start(first, &Beam::near_m));
+    filler_.add_contour(corners_, hit_class);
+  }
 }
 
 ScanPainter::Counts ScanPainter::paint(grids::EvidentialGrid& grid, const Pose2& T_map_base,
@@ -245,22 +242,24 @@ ScanPainter::Counts ScanPainter::paint(grids::EvidentialGrid& grid, const Pose2&
   const Counts counts = classify(ranges_m, reliability);
   place(T_map_base, path, time);
   join();
-  double reach = 0.0;  // in metres, of the farthest beam
   const Eigen::Vector2d here = T_map_base * range_finder_.T_base_sensor.translation();
-  for (const Beam& beam : beams_) reach = std::max(reach, std::max(beam.free_m, beam.far_m));
-  reach += 2.0 * georeference_.resolution_m;
+  const Eigen::Vector2d origin(georeference_.origin_x_m, georeference_.origin_y_m);
+  const double most_m = std::max(range_finder_.range_max_m, 1.0);
+  double reach = 0.0, moved = 0.0;  // of the longest beam [m]; how far the sensor comes within the scan [m^2]
   for (const Beam& beam : beams_) {
-    const Eigen::Vector2d moved = beam.origin * georeference_.resolution_m - here +
-                                  Eigen::Vector2d(georeference_.origin_x_m, georeference_.origin_y_m);
-    if (!(moved.norm() <= std::max(range_finder_.range_max_m, 1.0)))
-      throw std::out_of_range("the motion given with a scan carries the sensor " + std::to_string(moved.norm()) +
+    const double square = (beam.origin * georeference_.resolution_m + origin - here).squaredNorm();
+    if (!(square <= most_m * most_m))
+      throw std::out_of_range("the motion given with a scan carries the sensor " + std::to_string(std::sqrt(square)) +
                               " m away within the scan: leave the motion out or correct it");
-    reach = std::max(reach, moved.norm() + std::max(beam.free_m, beam.far_m) + 2.0 * georeference_.resolution_m);
+    moved = std::max(moved, square);
+    reach = std::max(reach, std::max(beam.free_m, beam.far_m));
   }
+  reach += std::sqrt(moved) + 2.0 * georeference_.resolution_m;
   static_cast<void>(georeference_.cell_at(here - Eigen::Vector2d(reach, reach)));
   static_cast<void>(georeference_.cell_at(here + Eigen::Vector2d(reach, reach)));
-  outline();
-  add_contours();
+  filler_.clear();
+  add_free_contours();
+  add_hit_contours();
   filler_.fill(grid, increments_);
   return counts;
 }

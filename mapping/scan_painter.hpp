@@ -69,32 +69,35 @@ class ScanPainter {
                std::span<const float> ranges_m, const sensors::MotionPath& path, sensors::Timestamp time);
 
  private:
-  /// A beam in cells: its sector is bounded by the rays through `start` and `end`, left and right of `tip`.
   struct Beam {
-    Eigen::Vector2d origin, direction;
-    Eigen::Vector2d free_start, free_tip, free_end;  ///< outline of the free part
-    Eigen::Vector2d near_start, near_tip, near_end;  ///< near outline of the occupied part
-    Eigen::Vector2d far_start, far_tip, far_end;     ///< its far outline
+    Eigen::Vector2d origin, direction;  ///< in cells; a unit vector
     double range_m = 0.0, free_m = 0.0, near_m = 0.0, far_m = 0.0;
     int free_class = -1, hit_class = -1;  ///< -1: none
     bool joined = false;                  ///< with the next beam: both hit one surface
   };
+  /// An outline over the beams: the end of its free part, or the near or the far side of the occupied one.
+  using Outline = double Beam::*;
 
   Counts classify(std::span<const float> ranges_m, const PoseReliability& reliability);
   void place(const geometry::Pose2& T_map_base, const sensors::MotionPath& path, sensors::Timestamp time);
   void join();
-  void outline();
-  void add_contours();
+  [[nodiscard]] Eigen::Vector2d tip(std::size_t beam, Outline outline) const;
+  [[nodiscard]] Eigen::Vector2d start(std::size_t beam, Outline outline) const;
+  [[nodiscard]] Eigen::Vector2d end(std::size_t beam, Outline outline) const;
+  void add_free_contours();
+  void add_hit_contours();
 
   sensors::RangeFinder range_finder_;
   grids::Georeference georeference_;
   LaserTables tables_;
   ScanParams params_;
-  double half_sector_rad_ = 0.0;
+  double cells_per_metre_ = 0.0;
+  Eigen::Vector2d half_sector_;              ///< cosine and sine of half the angle between beams, at most
   bool touching_ = false;                    ///< sectors reach half-way to their neighbours
   std::vector<Eigen::Vector2d> directions_;  ///< of the beams, in the sensor frame
   std::array<evidence::FixedLogCommonality, RegionFiller::kClasses> increments_;
   std::vector<Beam> beams_;
+  std::vector<Eigen::Vector2d> corners_;  ///< of the contour at hand
   RegionFiller filler_;
 };
 

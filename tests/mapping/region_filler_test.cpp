@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "mapping/region_filler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "geometry/segment.hpp"
+
+namespace credo::mapping {
+namespace {
+
+using evidence::FixedLogCommonality;
+using Contour = std::vector<Eigen::Vector2d>;
+
+/// How often a contour winds around a point: crossings of the ray to the left of it.
+int turns_around(const Eigen::Vector2d& point, const Contour& contour) {
+  int turns = 0;
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const Eigen::Vector2d &a = contour[i], &b = contour[(i + 1) % contour.size()];
+    if ((a.y() <= point.y()) == (b.y() <= point.y())) continue;
+    const bool up = a.y() < b.y();
+    const double side = geometry::cross(b - a, point - a);  // positive: the point lies to the left of the edge
+    if (up ? side < 0.0 : side > 0.0) turns += up ? 1 : -1;
+  }
+  return turns;
+}
+
+std::vector<FixedLogCommonality> increments_by_class() {
+  std::vector<FixedLogCommonality> increments(RegionFiller::kClasses);
+  for (int c = 0; c < RegionFiller::kClasses; ++c) increments[c] = {-1 - c, -100 - c, -10'000 - c};
+  return increments;
+}
+
+TEST(RegionFiller, EveryCellGetsTheHighestClassThatWindsAroundItsCentre) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-90.0, 110.0);
+  const std::vector<FixedLogCommonality> increments = increments_by_class();
+  RegionFiller filler;
+  for (int round = 0; round < 12; ++round) {
+    std::vector<std::pair<Contour, int>> contours;
+    for (int k = 0; k < 4; ++k) {
+      Contour contour(3 + random() % 6);  // crosses itself
+      for (Eigen::Vector2d& corner : contour) corner = {place(random), place(random)};
+      contours.emplace_back(contour, static_cast<int>(random() % 3) * 31);
+      filler.add_contour(contour, contours.back().second);
+    }
+    grids::EvidentialGrid grid;
+    filler.fill(grid, increments);
+    for (int y = -95; y < 115; ++y) {
+      for (int x = -95; x < 115; ++x) {
+        std::array<int, RegionFiller::kClasses> turns{};
+        for (const auto& [contour, c] : contours) turns[c] += turns_around({x + 0.5, y + 0.5}, contour);
+        FixedLogCommonality expected;
+        for (int c = 0; c < RegionFiller::kClasses; ++c)
+          if (turns[c] != 0) expected = increments[c];
+        ASSERT_EQ(grid.at({x, y}), expected) << x << ' ' << y << " in round " << round;
+      }
+    }
+  }
+}
+
+TEST(RegionFiller, ContoursThatShareAnEdgeLeaveNoCellBetweenThemAndFillNoneTwice) {
+  const std::vector<FixedLogCommonality> increments = increments_by_class();
+  const Contour lower{{0.3, 0.2}, {70.1, 3.7}, {66.6, 40.2}}, upper{{0.3, 0.2}, {66.6, 40.2}, {-3.0, 50.0}};
+  Contour both{lower[0], lower[1], lower[2], upper[2]};
+  grids::EvidentialGrid apart, together;
+  RegionFiller filler;
+  filler.add_contour(lower, 5);
+  filler.fill(apart, increments);
+  filler.add_contour(upper, 5);
+  filler.fill(apart, increments);
+  filler.add_contour(both, 5);
+  filler.fill(together, increments);
+  EXPECT_EQ(apart, together);
+}
+
+TEST(RegionFiller, ForgetsItsContours) {
+  RegionFiller filler;
+  const Contour square{{0.0, 0.0}, {9.0, 0.0}, {9.0, 9.0}, {0.0, 9.0}};
+  grids::EvidentialGrid grid;
+  filler.add_contour(square, 0);
+  filler.clear();
+  filler.fill(grid, increments_by_class());
+  EXPECT_TRUE(grid.tiles().empty());
+  filler.add_contour(square, 0);
+  filler.fill(grid, increments_by_class());
+  filler.fill(grid, increments_by_class());
+  EXPECT_EQ(grid.at({4, 4}), increments_by_class()[0]);
+  EXPECT_EQ(grid.bounding_box(), (grids::CellBox{{0, 0}, 9, 9}));
+}
+
+}  // namespace
+}  // namespace credo::mapping
