@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "geometry/pose.hpp"
+
 namespace credo::evaluation {
 namespace {
 
