@@ -23,8 +23,8 @@
 #include "datasets/map_server.hpp"
 #include "datasets/trajectory.hpp"
 #include "mapping/mapper.hpp"
-#include "results/belief_tiff.hpp"
 #include "results/config.hpp"
+#include "results/map_folder.hpp"
 #include "results/pictures.hpp"
 #include "results/results_folder.hpp"
 
@@ -37,6 +37,8 @@ struct MapOptions {
   std::string source, out, poses, pictures;
   std::vector<std::string> sensors{"range", "sonar"};
   std::string readout = "normalized";
+  datasets::MapMode map_mode = datasets::MapMode::kTrinary;
+  bool large = false;
   bool force = false;
   mapping::TrajectoryMappingParams params;
   OutputFormat format;
@@ -148,7 +150,7 @@ mapping::TrajectoryMap build(const MapOptions& o, const std::vector<Part>& parts
   mapping::TrajectoryMap map{.grid = grids::EvidentialGrid(o.params.mapper.georeference), .counts = {}};
   Eigen::AlignedBox2d ground;
   for (const Part& part : parts) ground.extend(seen_ground(part.path, part.rig, part.scans, part.sweeps, o.params));
-  require_map_fits(ground, o.params.mapper.georeference.resolution_m);
+  if (!o.large) require_map_fits(ground, o.params.mapper.georeference.resolution_m);
   Progress progress("mapping");
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto report = [&](double share) {
@@ -201,14 +203,16 @@ void check_overlap(const MapOptions& o, const std::vector<Part>& parts, const ma
 
 void write(const MapOptions& o, const mapping::TrajectoryMap& map, const std::vector<Part>& parts,
            const std::string& poses, const fs::path& folder, const std::optional<PictureFolder>& pictures) {
-  datasets::write_map(datasets::to_occupancy(map.grid), folder / "map.yaml");
-  const auto channels = o.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized;
-  results::write_belief_tiff(results::belief_image(map.grid, channels), folder / "map_belief.tiff");
+  const bool drawn = results::write_map_folder(
+      map.grid, folder,
+      {.mode = o.map_mode,
+       .channels = o.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized});
+  if (!drawn) warn_without_pictures(map.grid);
   results::write_text(folder / "config.yaml", results::to_yaml(o.params, CREDO_VERSION, o.source, poses));
-  if (!pictures) return;
+  if (!pictures || !drawn) return;
   std::vector<geometry::Pose2> way;
   for (const auto& row : parts.front().path.rows()) way.push_back(row.T_odom_base);
-  results::write_png(pictures->path() / "map.png", results::map_picture(map.grid, way));
+  results::write_map_pictures(pictures->path(), map.grid, way);
   pictures->publish();
 }
 
@@ -253,7 +257,7 @@ void execute(MapOptions o) {
               static_cast<long long>(map.without_pose));
   std::printf("map: %s (%d x %d cells of %g m)\n", o.out.c_str(), box.width, box.height,
               o.params.mapper.georeference.resolution_m);
-  if (!o.pictures.empty()) std::printf("picture: %s\n", (fs::path(o.pictures) / "map.png").c_str());
+  if (!o.pictures.empty()) std::printf("pictures: %s\n", o.pictures.c_str());
 }
 
 }  // namespace
@@ -285,7 +289,15 @@ void add_map(CLI::App& app) {
                    "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
       ->check(CLI::IsMember({"normalized", "raw"}))
       ->capture_default_str();
-  command->add_option("--pictures", o->pictures, "folder for map.png")->check(a_path());
+  command->add_option("--map-mode", o->map_mode, "what the grey of map.yaml says: trinary, scale (percent) or raw")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, datasets::MapMode>{{"trinary", datasets::MapMode::kTrinary},
+                                                                           {"scale", datasets::MapMode::kScale},
+                                                                           {"raw", datasets::MapMode::kRaw}}))
+      ->default_str("trinary");
+  command->add_flag("--large", o->large, "allow a map that is too large for pictures: map.cgrid alone is written then");
+  command->add_option("--pictures", o->pictures, "folder for pictures: the map, its layers and its relief")
+      ->check(a_path());
   command->add_flag("-f,--force", o->force, "replace a map that is already there");
   add_format_option(*command, o->format);
   command->callback([o] { execute(*o); });
