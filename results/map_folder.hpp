@@ -13,7 +13,7 @@
 namespace credo::results {
 
 struct MapFolderParams {
-  grids::DecisionParams decision = {};                         ///< of map.yaml
+  grids::DecisionParams decision = {};                    ///< of map.yaml
   datasets::MapMode mode = datasets::MapMode::kTrinary;   ///< of map.yaml
   BeliefChannels channels = BeliefChannels::kNormalized;  ///< of map_belief.tiff
 };
