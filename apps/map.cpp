@@ -30,6 +30,7 @@
 #include "mapping/mapper.hpp"
 #include "results/belief_tiff.hpp"
 #include "results/config.hpp"
+#include "results/map_folder.hpp"
 #include "results/map_sheet.hpp"
 #include "results/mass_map_files.hpp"
 #include "results/pictures.hpp"
@@ -46,6 +47,8 @@ struct MapOptions {
   std::string rule;  ///< empty: the map that no order changes, of which most rules are read-outs
   std::string out, pictures;
   std::string readout = "normalized";
+  datasets::MapMode map_mode = datasets::MapMode::kTrinary;
+  bool large = false;
   bool force = false;
   mapping::TrajectoryMappingParams params;
   OutputFormat format;
@@ -56,7 +59,7 @@ using Made = std::variant<mapping::TrajectoryMap, mapping::RuleMap>;
 void require_fits(const MapOptions& o, const std::vector<MapPart>& parts) {
   Eigen::AlignedBox2d ground;
   for (const MapPart& part : parts) ground.extend(seen_ground(part.path, part.rig, part.scans, part.sweeps, o.params));
-  require_map_fits(ground, o.params.mapper.georeference.resolution_m);
+  if (!o.large) require_map_fits(ground, o.params.mapper.georeference.resolution_m);
 }
 
 mapping::RuleMap build_by_rule(const MapOptions& o, const std::vector<MapPart>& parts) {
@@ -132,33 +135,40 @@ void check_overlap(const MapOptions& o, const std::vector<MapPart>& parts, const
   if (10 * without_pose > all) say_warning(message);
 }
 
-void write_map_files(const MapOptions& o, const mapping::TrajectoryMap& made, std::span<const geometry::Pose2> way,
+/// Whether the map is small enough for pictures, and was drawn.
+bool write_map_files(const MapOptions& o, const mapping::TrajectoryMap& made, std::span<const geometry::Pose2> way,
                      const fs::path& folder, const std::optional<PictureFolder>& pictures) {
-  datasets::write_map(datasets::to_occupancy(made.grid), folder / "map.yaml");
-  const auto channels = o.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized;
-  results::write_belief_tiff(results::belief_image(made.grid, channels), folder / "map_belief.tiff");
-  if (pictures) results::write_png(pictures->path() / "map.png", results::map_picture(made.grid, way));
+  const bool drawn = results::write_map_folder(
+      made.grid, folder,
+      {.mode = o.map_mode,
+       .channels = o.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized});
+  if (!drawn) warn_without_pictures(made.grid);
+  if (pictures && drawn) results::write_map_pictures(pictures->path(), made.grid, way);
+  return drawn;
 }
 
-void write_map_files(const MapOptions& o, const mapping::RuleMap& made, std::span<const geometry::Pose2>,
+bool write_map_files(const MapOptions& o, const mapping::RuleMap& made, std::span<const geometry::Pose2>,
                      const fs::path& folder, const std::optional<PictureFolder>& pictures) {
-  datasets::write_map(results::to_occupancy(made.map), folder / "map.yaml");
+  const bool trinary = o.map_mode == datasets::MapMode::kTrinary;
+  datasets::write_map(trinary ? results::to_occupancy(made.map) : results::to_probabilities(made.map),
+                      folder / "map.yaml", o.map_mode);
   results::write_belief_tiff(results::belief_image(made.map), folder / "map_belief.tiff");
-  if (!pictures) return;
+  if (!pictures) return true;
   const std::string title = std::string(mapping::name_of(o.params.mapper.sonar)) + " " + o.rule;
   results::write_png(pictures->path() / "map.png",
                      results::map_sheet(std::array{results::SheetMap{title, "", &made.map}}));
+  return true;
 }
 
 void write(const MapOptions& o, const Made& made, const std::vector<MapPart>& parts, const std::string& poses,
            const fs::path& folder, const std::optional<PictureFolder>& pictures) {
   std::vector<geometry::Pose2> way;
   for (const auto& row : parts.front().path.rows()) way.push_back(row.T_odom_base);
-  std::visit([&](const auto& map) { write_map_files(o, map, way, folder, pictures); }, made);
+  const bool drawn = std::visit([&](const auto& map) { return write_map_files(o, map, way, folder, pictures); }, made);
   std::string config = results::to_yaml(o.params, CREDO_VERSION, o.from.source, poses);
   if (!o.rule.empty()) config += "rule: " + o.rule + "\n";
   results::write_text(folder / "config.yaml", config);
-  if (pictures) pictures->publish();
+  if (pictures && drawn) pictures->publish();
 }
 
 grids::CellBox box_of(const Made& made) {
@@ -202,7 +212,7 @@ void execute(MapOptions o) {
               static_cast<long long>(without_pose));
   std::printf("map: %s (%d x %d cells of %g m)\n", o.out.c_str(), box.width, box.height,
               o.params.mapper.georeference.resolution_m);
-  if (!o.pictures.empty()) std::printf("picture: %s\n", (fs::path(o.pictures) / "map.png").c_str());
+  if (!o.pictures.empty()) std::printf("pictures: %s\n", o.pictures.c_str());
 }
 
 }  // namespace
@@ -239,7 +249,15 @@ void add_map(CLI::App& app) {
                    "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
       ->check(CLI::IsMember({"normalized", "raw"}))
       ->capture_default_str();
-  command->add_option("--pictures", o->pictures, "folder for map.png")->check(a_path());
+  command->add_option("--map-mode", o->map_mode, "what the grey of map.yaml says: trinary, scale (percent) or raw")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, datasets::MapMode>{{"trinary", datasets::MapMode::kTrinary},
+                                                                           {"scale", datasets::MapMode::kScale},
+                                                                           {"raw", datasets::MapMode::kRaw}}))
+      ->default_str("trinary");
+  command->add_flag("--large", o->large, "allow a map that is too large for pictures: map.cgrid alone is written then");
+  command->add_option("--pictures", o->pictures, "folder for pictures: the map, its layers and its relief")
+      ->check(a_path());
   command->add_flag("-f,--force", o->force, "replace a map that is already there");
   add_format_option(*command, o->format);
   command->callback([o] { execute(*o); });

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "apps/terminal.hpp"
 #include "grids/readout.hpp"
 
 namespace credo::apps {
@@ -67,8 +68,17 @@ void require_map_fits(const Eigen::AlignedBox2d& ground, double resolution_m) {
   const double step = std::pow(10.0, std::floor(std::log10(fitting_m)) - 1.0);  // two digits are enough
   throw std::length_error(fmt::format(
       "the readings are from {:.1f} x {:.1f} m, which is more than the {:.0f} cells that a map may have at a "
-      "resolution of {:g} m: choose one of {:g} m or coarser, or look for a pose that is far off",
+      "resolution of {:g} m: choose one of {:g} m or coarser, ask for map.cgrid alone with --large, or look for a pose "
+      "that is far off",
       size.x(), size.y(), most, resolution_m, std::ceil(fitting_m / step) * step));
+}
+
+void warn_without_pictures(const grids::EvidentialGrid& grid) {
+  const grids::CellBox box = grid.bounding_box();
+  say_warning(
+      fmt::format("the map is {} x {} cells, more than the {} of the largest picture: it is in map.cgrid, and "
+                  "there is no map.yaml and no map_belief.tiff",
+                  box.width, box.height, grids::kLargestPicture));
 }
 
 }  // namespace credo::apps

@@ -18,7 +18,10 @@ namespace credo::apps {
                                               const mapping::TrajectoryMappingParams& params);
 
 /// Refuses, before anything is mapped, a resolution with which the map would be larger than a picture may be.
-/// \throws std::length_error with a resolution to try
+/// \throws std::length_error with a resolution to try, and the option that asks for the map without pictures
 void require_map_fits(const Eigen::AlignedBox2d& ground, double resolution_m);
+
+/// Says that a map is too large for the pictures of it, and what is there instead.
+void warn_without_pictures(const grids::EvidentialGrid& grid);
 
 }  // namespace credo::apps

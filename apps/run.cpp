@@ -11,6 +11,7 @@
 #include "apps/about.hpp"
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/map_extent.hpp"
 #include "apps/map_saturation.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output.hpp"
@@ -85,8 +86,9 @@ Outcome run_and_write(const datasets::Dataset& dataset, const RunOptions& option
   });
   if (pictures) pictures->draw_summary(outcome);
   warn_of_saturation(outcome.map);
-  writer.add_map(outcome.map, {},
-                 options.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized);
+  if (!writer.add_map(outcome.map, {.channels = options.readout == "raw" ? results::BeliefChannels::kRaw
+                                                                         : results::BeliefChannels::kNormalized}))
+    warn_without_pictures(outcome.map);
   writer.add_config(results::to_yaml(results::RunConfig{.version = CREDO_VERSION,
                                                         .dataset = dataset.header.name,
                                                         .observer = params.observer,

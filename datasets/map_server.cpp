@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -27,10 +28,13 @@ constexpr char kOccupiedGrey = static_cast<char>(0);
 constexpr char kUnknownGrey = static_cast<char>(205);
 constexpr int kMapDecimals = 9;
 
-enum class Mode { kTrinary, kScale, kRaw };
+/// Between 0 and the grey of one percent, and the same below 1: a scale's ends are read as 0 and 100, and no step is
+/// lost.
+constexpr double kScaleMargin = 0.002;
 
-struct Rules {
-  Mode mode = Mode::kTrinary;
+/// What a YAML says of the grey levels.
+struct Levels {
+  MapMode mode = MapMode::kTrinary;
   bool negate = false;
   double occupied_threshold = kOccupiedThreshold;
   double free_threshold = kFreeThreshold;
@@ -41,24 +45,58 @@ struct Pixel {
   double shade = 0.0;
   double alpha = 1.0;
   bool has_alpha = false;
+  double last = 1.0;  ///< channel of a pixel of several, in the order red, green, blue, opacity
 };
 
-/// nav2's map_server, with strict inequalities on both thresholds.
-std::int8_t interpret(const Pixel& pixel, const Rules& rules) {
-  if (rules.mode == Mode::kRaw) {
-    const double value = std::round(pixel.shade * 255.0);
-    return value <= 100.0 ? static_cast<std::int8_t>(value) : OccupancyMap::kUnknown;
+/// Occupied, free, or nothing between the two.
+std::optional<std::int8_t> beyond_thresholds(double occupied, const Levels& levels) {
+  if (occupied > levels.occupied_threshold) return OccupancyMap::kOccupied;
+  if (occupied < levels.free_threshold) return OccupancyMap::kFree;
+  return std::nullopt;
+}
+
+/// Trinary mode averages the opacity in with the three colours.
+double trinary_shade(const Pixel& pixel) {
+  return pixel.has_alpha ? (3.0 * pixel.shade + pixel.alpha) / 4.0 : pixel.shade;
+}
+
+double occupied_share(double shade, const Levels& levels) { return levels.negate ? shade : 1.0 - shade; }
+
+double between_thresholds(double occupied, const Levels& levels) {
+  return (occupied - levels.free_threshold) / (levels.occupied_threshold - levels.free_threshold);
+}
+
+std::int8_t interpret_nav2(const Pixel& pixel, const Levels& levels) {
+  switch (levels.mode) {
+    case MapMode::kTrinary:
+      return beyond_thresholds(occupied_share(trinary_shade(pixel), levels), levels).value_or(OccupancyMap::kUnknown);
+    case MapMode::kScale: break;
+    case MapMode::kRaw: {
+      const double value = std::round(pixel.shade * 255.0);
+      return value <= 100.0 ? static_cast<std::int8_t>(value) : OccupancyMap::kUnknown;
+    }
   }
-  if (rules.mode == Mode::kScale && pixel.has_alpha && pixel.alpha < 1.0) return OccupancyMap::kUnknown;
-  // Trinary mode averages the opacity in with the three colours.
-  const double shade =
-      rules.mode == Mode::kTrinary && pixel.has_alpha ? (3.0 * pixel.shade + pixel.alpha) / 4.0 : pixel.shade;
-  const double occupied = rules.negate ? shade : 1.0 - shade;
-  if (occupied > rules.occupied_threshold) return OccupancyMap::kOccupied;
-  if (occupied < rules.free_threshold) return OccupancyMap::kFree;
-  if (rules.mode == Mode::kTrinary) return OccupancyMap::kUnknown;
-  return static_cast<std::int8_t>(
-      std::rint((occupied - rules.free_threshold) / (rules.occupied_threshold - rules.free_threshold) * 100.0));
+  if (pixel.has_alpha && pixel.alpha < 1.0) return OccupancyMap::kUnknown;
+  const double occupied = occupied_share(pixel.shade, levels);
+  if (const auto sure = beyond_thresholds(occupied, levels)) return *sure;
+  return static_cast<std::int8_t>(std::rint(between_thresholds(occupied, levels) * 100.0));
+}
+
+std::int8_t interpret_ros1(const Pixel& pixel, const Levels& levels) {
+  switch (levels.mode) {
+    case MapMode::kTrinary:
+      return beyond_thresholds(occupied_share(trinary_shade(pixel), levels), levels).value_or(OccupancyMap::kUnknown);
+    case MapMode::kScale: break;
+    case MapMode::kRaw: {
+      const double shade = levels.negate ? 1.0 - pixel.shade : pixel.shade;
+      // A byte and no percentage: those from 128 on come out negative, 255 as unknown. Rounding noise is not cut off.
+      return static_cast<std::int8_t>(static_cast<std::uint8_t>(shade * 255.0 + 1e-6));
+    }
+  }
+  const double occupied = occupied_share(pixel.shade, levels);
+  if (const auto sure = beyond_thresholds(occupied, levels)) return *sure;
+  if (pixel.last * 255.0 < 1.0) return OccupancyMap::kUnknown;
+  return static_cast<std::int8_t>(1.0 + 98.0 * between_thresholds(occupied, levels));
 }
 
 template <typename Value>
@@ -67,7 +105,9 @@ Pixel pixel_of(const Value* channels, int count, double white) {
   const int colours = has_alpha ? count - 1 : count;
   double sum = 0.0;
   for (int c = 0; c < colours; ++c) sum += channels[c];
-  return {.shade = sum / colours / white, .alpha = has_alpha ? channels[colours] / white : 1.0, .has_alpha = has_alpha};
+  const double alpha = has_alpha ? channels[colours] / white : 1.0;
+  const double last = has_alpha ? alpha : count == 1 ? 1.0 : channels[0] / white;  // OpenCV has blue first
+  return {.shade = sum / colours / white, .alpha = alpha, .has_alpha = has_alpha, .last = last};
 }
 
 bool read_negate(const CheckedValue& value) {
@@ -78,17 +118,19 @@ bool read_negate(const CheckedValue& value) {
   }
 }
 
-Rules read_rules(const CheckedMap& keys) {
-  Rules rules;
+Levels read_levels(const CheckedMap& keys) {
+  Levels levels;
   if (const auto mode = keys.optional("mode"))
-    rules.mode = static_cast<Mode>(mode->one_of({"trinary", "scale", "raw"}));
-  rules.negate = read_negate(keys.required("negate"));
+    levels.mode = static_cast<MapMode>(mode->one_of({"trinary", "scale", "raw"}));
+  levels.negate = read_negate(keys.required("negate"));
   const CheckedValue occupied = keys.required("occupied_thresh"), free = keys.required("free_thresh");
-  rules.occupied_threshold = occupied.number({.low = 0.0, .high = 1.0});
-  rules.free_threshold = free.number({.low = 0.0, .high = 1.0});
-  if (rules.free_threshold > rules.occupied_threshold)
-    free.fail("free_thresh: is above occupied_thresh; expected at most " + std::to_string(rules.occupied_threshold));
-  return rules;
+  levels.occupied_threshold = occupied.number({.low = 0.0, .high = 1.0});
+  levels.free_threshold = free.number({.low = 0.0, .high = 1.0});
+  if (levels.free_threshold > levels.occupied_threshold)
+    free.fail("free_thresh: is above occupied_thresh; expected at most " + std::to_string(levels.occupied_threshold));
+  if (levels.mode == MapMode::kScale && levels.free_threshold == levels.occupied_threshold)
+    free.fail("free_thresh: equals occupied_thresh; mode scale needs room between the two");
+  return levels;
 }
 
 cv::Mat read_picture(const std::filesystem::path& file) {
@@ -110,8 +152,17 @@ cv::Mat read_picture(const std::filesystem::path& file) {
   return picture;
 }
 
-std::string yaml_of(const OccupancyMap& map, const std::string& image) {
-  std::string text = "image: " + image + "\nmode: trinary\nresolution: ";
+const char* name_of(MapMode mode) {
+  switch (mode) {
+    case MapMode::kTrinary: return "trinary";
+    case MapMode::kScale: return "scale";
+    case MapMode::kRaw: return "raw";
+  }
+  return "?";
+}
+
+std::string yaml_of(const OccupancyMap& map, const std::string& image, MapMode mode) {
+  std::string text = "image: " + image + "\nmode: " + name_of(mode) + "\nresolution: ";
   append_fixed(text, map.resolution_m, kMapDecimals);
   text += "\norigin: [";
   append_fixed(text, map.origin_x_m, kMapDecimals);
@@ -119,7 +170,11 @@ std::string yaml_of(const OccupancyMap& map, const std::string& image) {
   append_fixed(text, map.origin_y_m, kMapDecimals);
   text += ", ";
   append_fixed(text, map.origin_yaw_rad, kMapDecimals);
-  return text + "]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+  text += "]\nnegate: 0\noccupied_thresh: ";
+  append_shortest(text, mode == MapMode::kScale ? 1.0 - kScaleMargin : kOccupiedThreshold);
+  text += "\nfree_thresh: ";
+  append_shortest(text, mode == MapMode::kScale ? kScaleMargin : kFreeThreshold);
+  return text + "\n";
 }
 
 void check_writable(const OccupancyMap& map) {
@@ -131,24 +186,57 @@ void check_writable(const OccupancyMap& map) {
     throw std::invalid_argument("an occupancy map to be written has a resolution or an origin that is none");
 }
 
-char grey_of(std::int8_t cell) {
-  if (cell < 0 || cell > 100) return kUnknownGrey;
+bool is_known(std::int8_t cell) { return cell >= 0 && cell <= 100; }
+
+char trinary_grey(std::int8_t cell) {
+  if (!is_known(cell)) return kUnknownGrey;
   if (cell <= std::lround(kFreeThreshold * 100.0)) return kFreeGrey;
   return cell >= std::lround(kOccupiedThreshold * 100.0) ? kOccupiedGrey : kUnknownGrey;
+}
+
+char raw_grey(std::int8_t cell) { return static_cast<char>(is_known(cell) ? cell : 255); }
+
+/// Top row first.
+template <typename Grey>
+std::string to_pgm(const OccupancyMap& map, Grey grey) {
+  std::string pgm = "P5\n# CREATOR: Credo\n" + std::to_string(map.width) + ' ' + std::to_string(map.height) + "\n255\n";
+  pgm.reserve(pgm.size() + map.cells.size());
+  for (int row = map.height - 1; row >= 0; --row)
+    for (int column = 0; column < map.width; ++column) pgm.push_back(grey(map.at(column, row)));
+  return pgm;
+}
+
+std::string to_scale_png(const OccupancyMap& map) {
+  const cv::Vec4b transparent(127, 127, 127, 0);
+  cv::Mat picture(map.height, map.width, CV_8UC4);
+  for (int row = 0; row < map.height; ++row)
+    for (int column = 0; column < map.width; ++column) {
+      const std::int8_t cell = map.at(column, map.height - 1 - row);
+      const auto grey = static_cast<std::uint8_t>(std::lround(2.55 * (100 - cell)));
+      picture.at<cv::Vec4b>(row, column) = is_known(cell) ? cv::Vec4b(grey, grey, grey, 255) : transparent;
+    }
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", picture, png);
+  return {png.begin(), png.end()};
+}
+
+/// The rectangle of a grid as a map without cells.
+OccupancyMap frame_of(const grids::EvidentialGrid& grid, const grids::CellBox& box) {
+  const grids::Georeference& reference = grid.georeference();
+  return {.width = box.width,
+          .height = box.height,
+          .resolution_m = reference.resolution_m,
+          .origin_x_m = reference.origin_x_m + box.min.x * reference.resolution_m,
+          .origin_y_m = reference.origin_y_m + box.min.y * reference.resolution_m,
+          .origin_yaw_rad = 0.0,
+          .cells = {}};
 }
 
 }  // namespace
 
 OccupancyMap to_occupancy(const grids::EvidentialGrid& grid, const grids::DecisionParams& params) {
   const grids::CellBox box = grids::picture_box(grid);
-  const grids::Georeference& reference = grid.georeference();
-  OccupancyMap map{.width = box.width,
-                   .height = box.height,
-                   .resolution_m = reference.resolution_m,
-                   .origin_x_m = reference.origin_x_m + box.min.x * reference.resolution_m,
-                   .origin_y_m = reference.origin_y_m + box.min.y * reference.resolution_m,
-                   .origin_yaw_rad = 0.0,
-                   .cells = {}};
+  OccupancyMap map = frame_of(grid, box);
   const std::vector<grids::CellState> states = grids::decisions(grid, box, params);
   map.cells.reserve(states.size());
   for (const grids::CellState state : states)
@@ -158,7 +246,20 @@ OccupancyMap to_occupancy(const grids::EvidentialGrid& grid, const grids::Decisi
   return map;
 }
 
-OccupancyMap read_map(const std::filesystem::path& yaml) {
+OccupancyMap to_probabilities(const grids::EvidentialGrid& grid, const grids::DecisionParams& params) {
+  const grids::CellBox box = grids::picture_box(grid);
+  OccupancyMap map = frame_of(grid, box);
+  const std::vector<float> occupied = grids::layer(grid, box, grids::Layer::kProbabilityOccupied);
+  const std::vector<float> unknown = grids::layer(grid, box, grids::Layer::kUnknown);
+  map.cells.reserve(occupied.size());
+  for (std::size_t i = 0; i < occupied.size(); ++i)
+    map.cells.push_back(unknown[i] > params.unknown_above
+                            ? OccupancyMap::kUnknown
+                            : static_cast<std::int8_t>(std::lround(100.0F * occupied[i])));
+  return map;
+}
+
+OccupancyMap read_map(const std::filesystem::path& yaml, MapRules rules) {
   const CheckedMap keys =
       load_yaml(yaml).map({"image", "resolution", "origin", "occupied_thresh", "free_thresh", "negate", "mode"});
   OccupancyMap map;
@@ -167,7 +268,7 @@ OccupancyMap read_map(const std::filesystem::path& yaml) {
   map.origin_x_m = origin.x;
   map.origin_y_m = origin.y;
   map.origin_yaw_rad = origin.theta;
-  const Rules rules = read_rules(keys);
+  const Levels levels = read_levels(keys);
   const CheckedValue image = keys.required("image");
   const std::string name = image.text();
   if (name.empty()) image.fail("image: is empty; expected the name of a picture");
@@ -181,21 +282,18 @@ OccupancyMap read_map(const std::filesystem::path& yaml) {
       const Pixel pixel = picture.depth() == CV_8U
                               ? pixel_of(picture.ptr<std::uint8_t>(row) + offset, picture.channels(), 255.0)
                               : pixel_of(picture.ptr<std::uint16_t>(row) + offset, picture.channels(), 65535.0);
-      map.cells.push_back(interpret(pixel, rules));
+      map.cells.push_back(rules == MapRules::kNav2 ? interpret_nav2(pixel, levels) : interpret_ros1(pixel, levels));
     }
   }
   return map;
 }
 
-void write_map(const OccupancyMap& map, const std::filesystem::path& yaml) {
+void write_map(const OccupancyMap& map, const std::filesystem::path& yaml, MapMode mode) {
   check_writable(map);
-  const std::filesystem::path image = std::filesystem::path(yaml).replace_extension(".pgm");
-  std::string pgm = "P5\n# CREATOR: Credo\n" + std::to_string(map.width) + ' ' + std::to_string(map.height) + "\n255\n";
-  pgm.reserve(pgm.size() + map.cells.size());
-  for (int row = map.height - 1; row >= 0; --row)
-    for (int column = 0; column < map.width; ++column) pgm.push_back(grey_of(map.at(column, row)));
-  write_file_whole(image, pgm);
-  write_file_whole(yaml, yaml_of(map, image.filename().string()));
+  const bool scale = mode == MapMode::kScale;
+  const std::filesystem::path image = std::filesystem::path(yaml).replace_extension(scale ? ".png" : ".pgm");
+  write_file_whole(image, scale ? to_scale_png(map) : to_pgm(map, mode == MapMode::kRaw ? raw_grey : trinary_grey));
+  write_file_whole(yaml, yaml_of(map, image.filename().string(), mode));
 }
 
 }  // namespace credo::datasets

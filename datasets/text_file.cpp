@@ -11,13 +11,20 @@
 
 namespace credo::datasets {
 
-std::string read_binary_file(const std::filesystem::path& file) {
+std::ifstream open_binary_file(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw FormatError(file, 0, "there is no such file");
   if (std::filesystem::is_directory(status)) throw FormatError(file, 0, "is a folder; expected a file");
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw FormatError(file, 0, "cannot be read; check its permissions");
+  return in;
+}
+
+std::string read_binary_file(const std::filesystem::path& file) {
+  std::ifstream in = open_binary_file(file);
+  in.seekg(0, std::ios::end);
+  const std::streamoff size = static_cast<std::streamoff>(in.tellg());
   if (size < 0) throw FormatError(file, 0, "cannot be read; check its permissions");
   std::string content(static_cast<std::size_t>(size), '\0');
   in.seekg(0);
@@ -36,11 +43,11 @@ std::string read_text_file(const std::filesystem::path& file) {
   return content;
 }
 
-void write_file_whole(const std::filesystem::path& file, std::string_view content) {
+void write_file_whole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
   std::filesystem::path temporary = file;
   temporary += ".partial";
   std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  if (out) write(out);
   out.close();
   std::error_code error;
   if (out) std::filesystem::rename(temporary, file, error);
@@ -50,6 +57,11 @@ void write_file_whole(const std::filesystem::path& file, std::string_view conten
     throw std::runtime_error(
         file.string() + ": cannot be written; check that its folder exists, may be written to and " + "has space left");
   }
+}
+
+void write_file_whole(const std::filesystem::path& file, std::string_view content) {
+  write_file_whole(
+      file, [content](std::ostream& out) { out.write(content.data(), static_cast<std::streamsize>(content.size())); });
 }
 
 std::string_view trimmed(std::string_view text) {

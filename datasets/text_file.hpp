@@ -4,6 +4,8 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -14,10 +16,15 @@ namespace credo::datasets {
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& file);
 /// The same for any file, as bytes.
 [[nodiscard]] std::string read_binary_file(const std::filesystem::path& file);
+/// Any file, to be read in parts.
+/// \throws FormatError if it is missing, a folder, or not readable
+[[nodiscard]] std::ifstream open_binary_file(const std::filesystem::path& file);
 
 /// Writes a file whole: into a temporary one beside it that takes its name at the end.
 /// \throws std::runtime_error if that fails; `file` is then as it was
 void write_file_whole(const std::filesystem::path& file, std::string_view content);
+/// The same for what is not held as a whole: `write` puts it out, and may seek.
+void write_file_whole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
 /// `text` without the spaces, tabs and carriage returns around it.
 [[nodiscard]] std::string_view trimmed(std::string_view text);

@@ -10,6 +10,8 @@
 
 #include "geometry/pose.hpp"
 
+#include "geometry/pose.hpp"
+
 namespace credo::evaluation {
 namespace {
 

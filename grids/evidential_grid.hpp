@@ -56,8 +56,9 @@ struct Tile {
 /// reported.
 class EvidentialGrid {
  public:
-  /// 2^26 cells, 0.8 GB: a square of 400 m with cells of 5 cm.
-  static constexpr std::size_t kMostTiles = std::size_t{1} << 14;
+  /// 1.6 GB (12 bytes per cell of a tile, and 64 per tile): with cells of 5 cm a third of the tiles of a square
+  /// kilometre, or a square of 580 m that was seen all over.
+  static constexpr std::size_t kMostTiles = std::size_t{1} << 15;
 
   EvidentialGrid() : EvidentialGrid(Georeference{}) {}
   /// \param most_tiles  that it may hold; a map that needs more has too fine a resolution, or a pose that is far off

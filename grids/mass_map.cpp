@@ -25,7 +25,7 @@ evidence::GridMass read(const evidence::FixedLogCommonality& cell, ReadOut read_
 
 MassMap vacuous_map(const Georeference& georeference, const CellBox& box) {
   const std::int64_t cells = std::int64_t{box.width} * box.height;
-  if (cells > kLargestPicture)
+  if (!fits_a_picture(box))
     throw std::invalid_argument("a map of " + std::to_string(box.width) + " x " + std::to_string(box.height) +
                                 " cells is too large to be read out as a whole: choose a coarser resolution");
   return {.georeference = georeference,

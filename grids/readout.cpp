@@ -14,7 +14,7 @@ using evidence::FixedLogCommonality;
 using evidence::LogCommonality;
 
 void require_picture(const CellBox& box) {
-  if (std::int64_t{box.width} * box.height > kLargestPicture)
+  if (!fits_a_picture(box))
     throw std::invalid_argument(
         "the map is " + std::to_string(box.width) + " x " + std::to_string(box.height) + " cells, more than the " +
         std::to_string(kLargestPicture) +
@@ -27,6 +27,10 @@ double value(const LogCommonality& cell, Layer which) {
     case Layer::kOccupied: return evidence::normalised_masses(cell).occupied;
     case Layer::kUnknown: return evidence::normalised_masses(cell).unknown;
     case Layer::kContested: return evidence::contested(cell);
+    case Layer::kPlausibilityOccupied: return 1.0 - evidence::normalised_masses(cell).empty;
+    case Layer::kDsmpOccupied:
+      return evidence::dsmp(evidence::normalised_masses(cell), evidence::GridElement::kOccupied,
+                            evidence::GridModel::kExclusive, kDsmpEpsilon);
     case Layer::kProbabilityOccupied: return evidence::pignistic_occupied(cell);
     case Layer::kRawEmpty: return evidence::masses(cell).empty;
     case Layer::kRawOccupied: return evidence::masses(cell).occupied;

@@ -24,21 +24,31 @@ struct DecisionParams {
 /// What to call a cell. The read-outs themselves are those of evidence::LogCommonality.
 [[nodiscard]] CellState decide(const evidence::FixedLogCommonality& cell, const DecisionParams& params = {});
 
-/// What one number per cell can be asked for.
+/// What one number in [0, 1] per cell can be asked for.
 enum class Layer {
-  kEmpty,                ///< mass after Dempster's normalisation
-  kOccupied,             ///< mass after Dempster's normalisation
-  kUnknown,              ///< mass after Dempster's normalisation
-  kContested,            ///< balance of evidence for and against
-  kProbabilityOccupied,  ///< pignistic
-  kRawEmpty,             ///< unnormalised masses
+  kEmpty,                 ///< mass after Dempster's normalisation, which is the belief in it
+  kOccupied,              ///< mass after Dempster's normalisation, which is the belief in it
+  kUnknown,               ///< mass after Dempster's normalisation: the ignorance
+  kContested,             ///< balance of evidence for and against
+  kPlausibilityOccupied,  ///< 1 - m(empty), after Dempster's normalisation
+  kProbabilityOccupied,   ///< pignistic
+  kDsmpOccupied,          ///< DSmP of the normalised masses, epsilon kDsmpEpsilon
+  kRawEmpty,              ///< unnormalised masses
   kRawOccupied,
   kRawConflict,
   kRawUnknown,
 };
 
-/// The most cells that a picture may have: a square of 400 m with cells of 5 cm.
+/// Small, so that DSmP shares the ignorance nearly in proportion to the masses, and not zero, so that a cell of one
+/// mass alone is given the pignistic share in the limit (Dezert, Smarandache 2008).
+inline constexpr double kDsmpEpsilon = 1e-3;
+
+/// The most cells that a picture may have: a square of 400 m with cells of 5 cm. A map itself may be larger
+/// (EvidentialGrid::kMostTiles counts what was seen, a picture what lies around it); it is read out in parts.
 inline constexpr std::int64_t kLargestPicture = std::int64_t{1} << 26;
+[[nodiscard]] constexpr bool fits_a_picture(const CellBox& box) {
+  return std::int64_t{box.width} * box.height <= kLargestPicture;
+}
 
 /// The rectangle to show of a whole map: that of all evidence, or a single cell where there is none.
 /// \throws std::invalid_argument if it holds more than kLargestPicture cells

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "datasets/little_endian.hpp"
 #include "datasets/text_file.hpp"
 #include "grids/readout.hpp"
 
@@ -27,15 +28,10 @@ constexpr std::uint16_t kWidth = 256, kHeight = 257, kBitsPerSample = 258, kComp
                         kImageDescription = 270, kStripOffsets = 273, kSamplesPerPixel = 277, kRowsPerStrip = 278,
                         kStripByteCounts = 279, kPlanarConfiguration = 284, kExtraSamples = 338, kSampleFormat = 339;
 
-/// Little-endian bytes, whatever the machine.
-void put(std::string& bytes, std::uint32_t value, int count) {
-  for (int i = 0; i < count; ++i) bytes.push_back(static_cast<char>((value >> (8 * i)) & 0xFFU));
-}
+using datasets::put_little_endian;
 
 std::uint32_t get(std::string_view bytes, std::size_t at, int count) {
-  std::uint32_t value = 0;
-  for (int i = 0; i < count; ++i) value |= std::uint32_t{static_cast<std::uint8_t>(bytes[at + i])} << (8 * i);
-  return value;
+  return static_cast<std::uint32_t>(datasets::get_little_endian(bytes, at, count));
 }
 
 /// The directory of an image file: fields in the order of their tags, values of more than four bytes behind them.
@@ -44,15 +40,15 @@ class Directory {
   /// \param place  of the directory in the file
   explicit Directory(std::size_t place, int fields)
       : extra_place_(place + 2 + 12 * static_cast<std::size_t>(fields) + 4) {
-    put(fields_, static_cast<std::uint32_t>(fields), 2);
+    put_little_endian(fields_, static_cast<std::uint32_t>(fields), 2);
   }
   void number(std::uint16_t tag, std::uint16_t type, std::uint32_t value) {
     head(tag, type, 1);
-    put(fields_, value, 4);  // a short stands in the lower half
+    put_little_endian(fields_, value, 4);  // a short stands in the lower half
   }
   void shorts(std::uint16_t tag, std::initializer_list<std::uint16_t> values) {
     std::string bytes;
-    for (const std::uint16_t value : values) put(bytes, value, 2);
+    for (const std::uint16_t value : values) put_little_endian(bytes, value, 2);
     head(tag, kShort, static_cast<std::uint32_t>(values.size()));
     put_behind(bytes);
   }
@@ -64,13 +60,13 @@ class Directory {
 
  private:
   void head(std::uint16_t tag, std::uint16_t type, std::uint32_t count) {
-    put(fields_, tag, 2);
-    put(fields_, type, 2);
-    put(fields_, count, 4);
+    put_little_endian(fields_, tag, 2);
+    put_little_endian(fields_, type, 2);
+    put_little_endian(fields_, count, 4);
   }
   void put_behind(std::string bytes) {
     if (bytes.size() % 2 != 0) bytes.push_back('\0');  // offsets are even
-    put(fields_, static_cast<std::uint32_t>(extra_place_ + behind_.size()), 4);
+    put_little_endian(fields_, static_cast<std::uint32_t>(extra_place_ + behind_.size()), 4);
     behind_ += bytes;
   }
 
@@ -152,9 +148,9 @@ void write_belief_tiff(const BeliefImage& image, const std::filesystem::path& fi
   const std::size_t place = kHeaderBytes + image.pixels.size() * kPixelBytes;
   std::string bytes("II*\0", 4);
   bytes.reserve(place + 512);
-  put(bytes, static_cast<std::uint32_t>(place), 4);
+  put_little_endian(bytes, static_cast<std::uint32_t>(place), 4);
   for (const std::array<float, kChannels>& pixel : image.pixels)
-    for (const float value : pixel) put(bytes, std::bit_cast<std::uint32_t>(value), 4);
+    for (const float value : pixel) put_little_endian(bytes, std::bit_cast<std::uint32_t>(value), 4);
   bytes += directory_of(image, place);
   datasets::write_file_whole(file, bytes);
 }

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "datasets/map_server.hpp"
-#include "results/belief_tiff.hpp"
+#include "datasets/grid_file.hpp"
 
 namespace credo::results {
 namespace {
@@ -21,9 +20,7 @@ evidence::FixedLogCommonality cell_of(const std::array<float, 4>& pixel) {
   return evidence::quantise({log_q(empty + unknown), log_q(occupied + unknown), log_q(unknown)});
 }
 
-}  // namespace
-
-grids::EvidentialGrid read_map_folder(const std::filesystem::path& folder) {
+grids::EvidentialGrid read_pictures(const std::filesystem::path& folder) {
   const datasets::OccupancyMap where = datasets::read_map(folder / "map.yaml");
   const BeliefImage image = read_belief_tiff(folder / "map_belief.tiff");
   if (image.width != where.width || image.height != where.height) {
@@ -49,6 +46,24 @@ grids::EvidentialGrid read_map_folder(const std::filesystem::path& folder) {
     }
   }
   return grid;
+}
+
+}  // namespace
+
+bool write_map_folder(const grids::EvidentialGrid& grid, const std::filesystem::path& folder,
+                      const MapFolderParams& params) {
+  datasets::write_grid(grid, folder / "map.cgrid");
+  if (!grids::fits_a_picture(grid.bounding_box())) return false;
+  datasets::write_map(params.mode == datasets::MapMode::kTrinary ? datasets::to_occupancy(grid, params.decision)
+                                                                 : datasets::to_probabilities(grid, params.decision),
+                      folder / "map.yaml", params.mode);
+  write_belief_tiff(belief_image(grid, params.channels), folder / "map_belief.tiff");
+  return true;
+}
+
+grids::EvidentialGrid read_map_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path whole = folder / "map.cgrid";
+  return std::filesystem::exists(whole) ? datasets::GridFile(whole).read() : read_pictures(folder);
 }
 
 }  // namespace credo::results

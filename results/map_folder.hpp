@@ -5,13 +5,29 @@
 
 #include <filesystem>
 
+#include "datasets/map_server.hpp"
 #include "grids/evidential_grid.hpp"
+#include "grids/readout.hpp"
+#include "results/belief_tiff.hpp"
 
 namespace credo::results {
 
-/// The map of a results folder, from map.yaml (where it lies) and map_belief.tiff (what is believed), which must hold
-/// normalised masses. The commonality ratios are kept, so that decisions, masses and `contested` come out the same; the
-/// raw conflict does not.
+struct MapFolderParams {
+  grids::DecisionParams decision = {};                    ///< of map.yaml
+  datasets::MapMode mode = datasets::MapMode::kTrinary;   ///< of map.yaml
+  BeliefChannels channels = BeliefChannels::kNormalized;  ///< of map_belief.tiff
+};
+
+/// Writes a map into a folder: map.cgrid, the map itself, and the pictures of it, map.yaml with its PGM or PNG and
+/// map_belief.tiff.
+/// \returns whether it has pictures: one of more than grids::kLargestPicture cells has none
+/// \throws std::runtime_error if a file cannot be written
+[[nodiscard]] bool write_map_folder(const grids::EvidentialGrid& grid, const std::filesystem::path& folder,
+                                    const MapFolderParams& params = {});
+
+/// The map of a results folder: that of map.cgrid, to the bit. Where there is none, from map.yaml (where it lies) and
+/// map_belief.tiff (what is believed), which must hold normalised masses; the commonality ratios are kept then, so that
+/// decisions, masses and `contested` come out the same, and the raw conflict does not.
 /// \throws std::runtime_error naming the file that is missing or does not fit
 [[nodiscard]] grids::EvidentialGrid read_map_folder(const std::filesystem::path& folder);
 

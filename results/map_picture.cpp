@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+#include <string>
 
 #include "grids/readout.hpp"
 #include "results/ground_view.hpp"
@@ -58,38 +60,70 @@ struct MapView {
   }
 };
 
-void draw_layer(Canvas& canvas, const grids::EvidentialGrid& grid, const MapView& map, grids::Layer which,
-                const char* title, Color full, Point corner, Point opposite) {
-  canvas.text({corner.x(), corner.y() + 14.0}, title, colors::kInk, 9.0, Anchor::kLeft, 1.2);
-  const double bar = 90.0, bar_left = opposite.x() - bar - 16.0;
-  for (int i = 0; i < 30; ++i) {
-    canvas.box({bar_left + bar * i / 30.0, corner.y() + 6.0}, {bar_left + bar * (i + 1) / 30.0, corner.y() + 14.0},
-               mixed(colors::kPaper, full, (i + 0.5) / 30.0));
-  }
-  canvas.frame({bar_left, corner.y() + 6.0}, {bar_left + bar, corner.y() + 14.0}, colors::kMuted, 0.7);
-  canvas.text({bar_left - 5.0, corner.y() + 14.0}, "0", colors::kInk, 7.5, Anchor::kRight);
-  canvas.text({bar_left + bar + 5.0, corner.y() + 14.0}, "1", colors::kInk, 7.5);
-  const GroundView view(map.low, map.high, corner + Point(0.0, 22.0), opposite);
-  const Point top_left = view.at({map.low.x(), map.high.y()}), bottom_right = view.at({map.high.x(), map.low.y()});
-  const std::vector<float> values = grids::layer(grid, map.box, which);
-  canvas.image(colored(values, map.box, [&](float v) { return mixed(colors::kPaper, full, v); }), top_left,
-               bottom_right);
-  canvas.frame(top_left, bottom_right, colors::kFaint, 0.8);
+/// How a layer is called and coloured: white at 0, `full` at 1.
+struct LayerStyle {
+  grids::Layer layer;
+  const char* name;   ///< of its picture
+  const char* title;  ///< in a few letters
+  const char* meaning;
+  Color full;
+};
+
+constexpr std::array<LayerStyle, 8> kLayers{{
+    {grids::Layer::kEmpty, "empty", "m(empty)", "mass, and belief, of \"empty\" (Dempster)", colors::kGreen},
+    {grids::Layer::kOccupied, "occupied", "m(occupied)", "mass, and belief, of \"occupied\" (Dempster)", kOccupiedCell},
+    {grids::Layer::kContested, "contested", "contested", "balance of the evidence for and against", kContestedCell},
+    {grids::Layer::kUnknown, "unknown", "m(unknown)", "ignorance", colors::kMuted},
+    {grids::Layer::kRawConflict, "conflict", "m(conflict)", "unnormalised: grows with every reading", colors::kRed},
+    {grids::Layer::kPlausibilityOccupied, "plausibility", "Pl(occupied)", "plausibility of \"occupied\"",
+     kOccupiedCell},
+    {grids::Layer::kProbabilityOccupied, "pignistic", "BetP(occupied)", "ignorance shared equally", kOccupiedCell},
+    {grids::Layer::kDsmpOccupied, "dsmp", "DSmP(occupied)", "ignorance shared as the masses", kOccupiedCell},
+}};
+
+void draw_color_bar(Canvas& canvas, Color full, double left, double right, double top) {
+  constexpr int kSteps = 30;
+  const double width = right - left;
+  for (int i = 0; i < kSteps; ++i)
+    canvas.box({left + width * i / kSteps, top}, {left + width * (i + 1) / kSteps, top + 8.0},
+               mixed(colors::kPaper, full, (i + 0.5) / kSteps));
+  canvas.frame({left, top}, {right, top + 8.0}, colors::kMuted, 0.7);
+  canvas.text({left - 5.0, top + 8.0}, "0", colors::kInk, 7.5, Anchor::kRight);
+  canvas.text({right + 5.0, top + 8.0}, "1", colors::kInk, 7.5);
 }
 
-/// The four layers, two by two.
+/// Title, colour bar and the layer itself. \returns where the layer lies
+GroundView draw_layer(Canvas& canvas, const grids::EvidentialGrid& grid, const MapView& map, const LayerStyle& style,
+                      Point corner, Point opposite) {
+  canvas.text({corner.x(), corner.y() + 14.0}, style.title, colors::kInk, 9.0, Anchor::kLeft, 1.2);
+  draw_color_bar(canvas, style.full, opposite.x() - 106.0, opposite.x() - 16.0, corner.y() + 6.0);
+  const GroundView view(map.low, map.high, corner + Point(0.0, 22.0), opposite);
+  const Point top_left = view.at({map.low.x(), map.high.y()}), bottom_right = view.at({map.high.x(), map.low.y()});
+  const std::vector<float> values = grids::layer(grid, map.box, style.layer);
+  canvas.image(colored(values, map.box, [&](float v) { return mixed(colors::kPaper, style.full, v); }), top_left,
+               bottom_right);
+  canvas.frame(top_left, bottom_right, colors::kFaint, 0.8);
+  return {map.low, map.high, top_left, bottom_right};
+}
+
+/// The first four layers, two by two.
 void draw_layers(Canvas& canvas, const grids::EvidentialGrid& grid, const MapView& map, Point corner, double width,
                  double height) {
-  const std::array<std::tuple<grids::Layer, const char*, Color>, 4> layers{
-      std::tuple{grids::Layer::kEmpty, "m(empty)", colors::kGreen},
-      {grids::Layer::kOccupied, "m(occupied)", kOccupiedCell},
-      {grids::Layer::kContested, "contested", kContestedCell},
-      {grids::Layer::kUnknown, "m(unknown)", colors::kMuted}};
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    const auto& [which, title, color] = layers[i];
+  for (std::size_t i = 0; i < 4; ++i) {
     const Point at = corner + Point(i % 2 == 0 ? 0.0 : width + 18.0, i < 2 ? 0.0 : height + 12.0);
-    draw_layer(canvas, grid, map, which, title, color, at, at + Point(width, height));
+    draw_layer(canvas, grid, map, kLayers[i], at, at + Point(width, height));
   }
+}
+
+/// One layer with its legend and a scale bar.
+cv::Mat layer_picture(const grids::EvidentialGrid& grid, const LayerStyle& style) {
+  const MapView map(grid);
+  const double aspect = (map.high.y() - map.low.y()) / std::max(1e-9, map.high.x() - map.low.x());
+  const double width = 720.0, height = std::clamp(width * aspect, 160.0, 900.0);
+  Canvas canvas(static_cast<int>(width + 32.0), static_cast<int>(height + 74.0));
+  draw_layer(canvas, grid, map, style, {16.0, 10.0}, {16.0 + width, 32.0 + height}).scale_bar(canvas);
+  canvas.text({16.0, height + 58.0}, std::string(style.title) + ": " + style.meaning, colors::kInk, 8.5);
+  return canvas.finish();
 }
 
 }  // namespace
@@ -128,6 +162,14 @@ cv::Mat map_picture(const grids::EvidentialGrid& grid, std::span<const geometry:
          8.5);
   draw_layers(canvas, grid, map, {16.0 + width + 22.0, 12.0}, layer_width, layer_height);
   return canvas.finish();
+}
+
+void write_map_pictures(const std::filesystem::path& folder, const grids::EvidentialGrid& grid,
+                        std::span<const geometry::Pose2> way) {
+  write_png(folder / "map.png", map_picture(grid, way));
+  for (const LayerStyle& style : kLayers)
+    write_png(folder / ("map_" + std::string(style.name) + ".png"), layer_picture(grid, style));
+  write_png(folder / "map_relief.png", belief_relief(grid));
 }
 
 void write_png(const std::filesystem::path& file, const cv::Mat& picture) {

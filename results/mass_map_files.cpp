@@ -4,23 +4,35 @@
 #include "results/mass_map_files.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace credo::results {
 namespace {
 
 using datasets::OccupancyMap;
 
-std::int8_t called(const evidence::GridMass& mass, const grids::DecisionParams& params) {
+/// Pignistic, the conflict divided out; nothing where more than `unknown_above` is ignorance, or all is conflict.
+std::optional<double> probability(const evidence::GridMass& mass, const grids::DecisionParams& params) {
   const auto normal = evidence::without_conflict(mass);
-  if (!normal || normal->unknown > params.unknown_above) return OccupancyMap::kUnknown;
-  const double occupied = normal->occupied + 0.5 * normal->unknown;
-  if (occupied >= params.occupied_from) return OccupancyMap::kOccupied;
-  return occupied <= params.empty_until ? OccupancyMap::kFree : OccupancyMap::kUnknown;
+  if (!normal || normal->unknown > params.unknown_above) return std::nullopt;
+  return normal->occupied + 0.5 * normal->unknown;
 }
 
-}  // namespace
+std::int8_t called(const evidence::GridMass& mass, const grids::DecisionParams& params) {
+  const std::optional<double> occupied = probability(mass, params);
+  if (!occupied) return OccupancyMap::kUnknown;
+  if (*occupied >= params.occupied_from) return OccupancyMap::kOccupied;
+  return *occupied <= params.empty_until ? OccupancyMap::kFree : OccupancyMap::kUnknown;
+}
 
-OccupancyMap to_occupancy(const grids::MassMap& map, const grids::DecisionParams& params) {
+std::int8_t percent(const evidence::GridMass& mass, const grids::DecisionParams& params) {
+  const std::optional<double> occupied = probability(mass, params);
+  return occupied ? static_cast<std::int8_t>(std::lround(100.0 * *occupied)) : OccupancyMap::kUnknown;
+}
+
+template <typename ValueOf>
+OccupancyMap map_of(const grids::MassMap& map, const ValueOf& value_of) {
   const grids::Georeference& reference = map.georeference;
   OccupancyMap occupancy{.width = std::max(1, map.box.width),
                          .height = std::max(1, map.box.height),
@@ -30,8 +42,18 @@ OccupancyMap to_occupancy(const grids::MassMap& map, const grids::DecisionParams
                          .cells = {OccupancyMap::kUnknown}};
   if (map.masses.empty()) return occupancy;
   occupancy.cells.clear();
-  for (const evidence::GridMass& mass : map.masses) occupancy.cells.push_back(called(mass, params));
+  for (const evidence::GridMass& mass : map.masses) occupancy.cells.push_back(value_of(mass));
   return occupancy;
+}
+
+}  // namespace
+
+OccupancyMap to_occupancy(const grids::MassMap& map, const grids::DecisionParams& params) {
+  return map_of(map, [&](const evidence::GridMass& mass) { return called(mass, params); });
+}
+
+OccupancyMap to_probabilities(const grids::MassMap& map, const grids::DecisionParams& params) {
+  return map_of(map, [&](const evidence::GridMass& mass) { return percent(mass, params); });
 }
 
 BeliefImage belief_image(const grids::MassMap& map) {

@@ -14,6 +14,10 @@ namespace credo::results {
 /// is total is unknown. An empty map gives one unknown cell.
 [[nodiscard]] datasets::OccupancyMap to_occupancy(const grids::MassMap& map, const grids::DecisionParams& params = {});
 
+/// The same as percent of the pignistic probability of "occupied"; -1 where it is not known.
+[[nodiscard]] datasets::OccupancyMap to_probabilities(const grids::MassMap& map,
+                                                      const grids::DecisionParams& params = {});
+
 /// The four masses as they are: of empty, occupied, conflict, unknown. An empty map gives one vacuous pixel.
 [[nodiscard]] BeliefImage belief_image(const grids::MassMap& map);
 

@@ -48,6 +48,17 @@ struct PlanView {
 /// Decisions and layers of a map; with the way of the robot.
 [[nodiscard]] cv::Mat map_picture(const grids::EvidentialGrid& grid, std::span<const geometry::Pose2> way = {});
 
+/// The map as a relief, seen from above one of its corners: the height is the belief in "occupied" after Dempster's
+/// normalisation, the colour too; grey where nothing is known ("belief layout", Li X. 2006 and 2007, who draw the
+/// unnormalised belief, which rises over empty ground as conflict accumulates).
+[[nodiscard]] cv::Mat belief_relief(const grids::EvidentialGrid& grid);
+
+/// map.png (map_picture), map_relief.png (belief_relief), and a map_LAYER.png with legend and scale for each of empty,
+/// occupied, contested, unknown, conflict, plausibility, pignistic and dsmp.
+/// \throws std::runtime_error if a file cannot be written
+void write_map_pictures(const std::filesystem::path& folder, const grids::EvidentialGrid& grid,
+                        std::span<const geometry::Pose2> way = {});
+
 /// \throws std::runtime_error if the file cannot be written
 void write_png(const std::filesystem::path& file, const cv::Mat& picture);
 

@@ -91,10 +91,8 @@ void ResultsWriter::add(const perception::Scene& scene, const localization::Loca
   append_radial_lines(state_->radial_lines, scene);
 }
 
-void ResultsWriter::add_map(const grids::EvidentialGrid& grid, const grids::DecisionParams& decision,
-                            BeliefChannels channels) {
-  datasets::write_map(datasets::to_occupancy(grid, decision), working_folder() / "map.yaml");
-  write_belief_tiff(belief_image(grid, channels), working_folder() / "map_belief.tiff");
+bool ResultsWriter::add_map(const grids::EvidentialGrid& grid, const MapFolderParams& params) {
+  return write_map_folder(grid, working_folder(), params);
 }
 
 void ResultsWriter::add_calibration(const std::string& yaml) {

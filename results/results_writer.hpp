@@ -9,11 +9,10 @@
 #include <string>
 
 #include "grids/evidential_grid.hpp"
-#include "grids/readout.hpp"
 #include "localization/localization.hpp"
 #include "perception/scene.hpp"
-#include "results/belief_tiff.hpp"
 #include "results/localization_table.hpp"
+#include "results/map_folder.hpp"
 #include "tracking/track.hpp"
 
 namespace credo::results {
@@ -30,9 +29,8 @@ class ResultsWriter {
   /// One acquisition: a row of trajectory.tum and of localization.csv, and the rows of the other tables.
   void add(const perception::Scene& scene, const localization::Localization& localization,
            std::span<const tracking::Track> tracks);
-  /// map.yaml, map.pgm and map_belief.tiff.
-  void add_map(const grids::EvidentialGrid& grid, const grids::DecisionParams& decision = {},
-               BeliefChannels channels = BeliefChannels::kNormalized);
+  /// The files of write_map_folder(). \returns as that
+  bool add_map(const grids::EvidentialGrid& grid, const MapFolderParams& params = {});
   void add_config(const std::string& yaml);
   /// calibration.yaml
   void add_calibration(const std::string& yaml);

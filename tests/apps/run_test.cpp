@@ -30,7 +30,7 @@ TEST_F(Command, TheWholeWayOfTheData) {
   EXPECT_THAT(answer.out,
               AllOf(HasSubstr("mean position error"), HasSubstr("confidently wrong"), HasSubstr("per pair")));
   for (const char* name : {"trajectory.tum", "localization.csv", "tracks.csv", "primitives.csv", "radial_lines.csv",
-                           "map.yaml", "map.pgm", "map_belief.tiff", "config.yaml", "calibration.yaml",
+                           "map.yaml", "map.pgm", "map_belief.tiff", "map.cgrid", "config.yaml", "calibration.yaml",
                            "pictures/errors.png", "pictures/beliefs.png", "pictures/map.png"}) {
     EXPECT_TRUE(fs::exists(folder_ / "first" / name)) << name;
   }
@@ -136,7 +136,10 @@ TEST_F(Command, PicturesOfOlderResultsDoNotStayBesideNewOnes) {
   ASSERT_EQ(credo("run data --out out --pictures beside --moments 1 --force").status, 0);
   EXPECT_EQ(pictures("beside").size(), 8u);
   ASSERT_EQ(credo("map data --out out --pictures beside --force").status, 0);
-  EXPECT_EQ(pictures("beside"), (std::set<std::string>{"map.png", "notes.txt", "planet_7.png", "scan_of_mine.png"}));
+  EXPECT_EQ(pictures("beside"),
+            (std::set<std::string>{"map.png", "map_conflict.png", "map_contested.png", "map_dsmp.png", "map_empty.png",
+                                   "map_occupied.png", "map_pignistic.png", "map_plausibility.png", "map_relief.png",
+                                   "map_unknown.png", "notes.txt", "planet_7.png", "scan_of_mine.png"}));
   ASSERT_EQ(credo("map data --out out --pictures out/pictures --force").status, 0);
   ASSERT_EQ(credo("map data --out out --force").status, 0);
   EXPECT_FALSE(fs::exists(folder_ / "out/pictures"));

@@ -62,11 +62,77 @@ int nav2_trinary(int grey, double occupied_threshold, double free_threshold) {
   return -1;
 }
 
+// The same for the other modes.
+int nav2_scale(int grey, int alpha, double occupied_threshold, double free_threshold) {
+  const double occupied = 1.0 - grey / 255.0;
+  if (alpha < 255) return -1;
+  if (occupied > occupied_threshold) return 100;
+  if (occupied < free_threshold) return 0;
+  return static_cast<int>(std::rint((occupied - free_threshold) / (occupied_threshold - free_threshold) * 100.0));
+}
+int ros1_scale(int grey, int alpha, double occupied_threshold, double free_threshold) {
+  const double occupied = (255 - grey) / 255.0;
+  if (occupied > occupied_threshold) return 100;
+  if (occupied < free_threshold) return 0;
+  if (alpha < 1.0) return -1;
+  return static_cast<int>(1 + 98 * (occupied - free_threshold) / (occupied_threshold - free_threshold));
+}
+int nav2_raw(int grey) { return grey <= 100 ? grey : -1; }
+int ros1_raw(int grey) { return static_cast<std::int8_t>(grey); }
+
+/// Unknown and every percentage, in one row.
+OccupancyMap every_value() {
+  OccupancyMap map{.width = 102, .height = 1, .cells = {}};
+  for (int value = -1; value <= 100; ++value) map.cells.push_back(static_cast<std::int8_t>(value));
+  return map;
+}
+
+double yaml_number(const std::string& yaml, const std::string& key) {
+  return std::stod(yaml.substr(yaml.find(key + ": ") + key.size() + 2));
+}
+
+TEST(MapServer, AScaleIsReadBackByNav2AsItWasAndByRos1WithinOne) {
+  const TemporaryFolder folder;
+  const OccupancyMap map = every_value();
+  write_map(map, folder / "map.yaml", MapMode::kScale);
+  const std::string yaml = read_all(folder / "map.yaml");
+  EXPECT_NE(yaml.find("image: map.png\nmode: scale\n"), std::string::npos) << yaml;
+  const double occupied = yaml_number(yaml, "occupied_thresh"), free = yaml_number(yaml, "free_thresh");
+  const cv::Mat picture = cv::imread((folder / "map.png").string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(picture.type(), CV_8UC4);
+  const OccupancyMap nav2 = read_map(folder / "map.yaml"), ros1 = read_map(folder / "map.yaml", MapRules::kRos1);
+  EXPECT_EQ(nav2, map);
+  for (int x = 0; x < map.width; ++x) {
+    const auto pixel = picture.at<cv::Vec4b>(0, x);
+    EXPECT_EQ(nav2_scale(pixel[0], pixel[3], occupied, free), map.at(x, 0));
+    const int there = ros1_scale(pixel[0], pixel[3], occupied, free);
+    EXPECT_EQ(ros1.at(x, 0), there);
+    const bool an_end = map.at(x, 0) <= 0 || map.at(x, 0) == 100;
+    EXPECT_NEAR(there, map.at(x, 0), an_end ? 0 : 1);
+  }
+}
+
+TEST(MapServer, RawValuesAreReadBackByEveryone) {
+  const TemporaryFolder folder;
+  const OccupancyMap map = every_value();
+  write_map(map, folder / "map.yaml", MapMode::kRaw);
+  EXPECT_EQ(read_map(folder / "map.yaml"), map);
+  EXPECT_EQ(read_map(folder / "map.yaml", MapRules::kRos1), map);
+  int width = 0, height = 0;
+  const std::vector<int> grey = grey_of_pgm(folder / "map.pgm", width, height);
+  ASSERT_EQ(grey.size(), map.cells.size());
+  for (std::size_t i = 0; i < grey.size(); ++i) {
+    EXPECT_EQ(nav2_raw(grey[i]), map.cells[i]);
+    EXPECT_EQ(ros1_raw(grey[i]), map.cells[i]);
+  }
+}
+
 TEST(MapServer, WhatIsWrittenIsReadBackByEveryone) {
   const TemporaryFolder folder;
   const OccupancyMap map = small_map();
   write_map(map, folder / "map.yaml");
   EXPECT_EQ(read_map(folder / "map.yaml"), map);
+  EXPECT_EQ(read_map(folder / "map.yaml", MapRules::kRos1), map);
 
   int width = 0, height = 0;
   const std::vector<int> grey = grey_of_pgm(folder / "map.pgm", width, height);
@@ -184,6 +250,47 @@ TEST(MapServer, ReadsTransparency) {
   EXPECT_EQ(read_row(folder, bgra, std::string(kYaml) + "mode: scale\n"), (std::vector<std::int8_t>{100, -1, 0}));
 }
 
+TEST(MapServer, TheTwoServersDisagreeOnScaleAndRaw) {
+  const TemporaryFolder folder;
+  cv::Mat bgra(1, 4, CV_8UC4);
+  bgra.at<cv::Vec4b>(0, 0) = {0, 0, 0, 0};          // occupied before it is transparent, for ROS 1
+  bgra.at<cv::Vec4b>(0, 1) = {150, 150, 150, 128};  // half transparent: nav2 alone calls it unknown
+  bgra.at<cv::Vec4b>(0, 2) = {150, 150, 150, 0};
+  bgra.at<cv::Vec4b>(0, 3) = {150, 150, 150, 255};
+  const double ratio = ((255 - 150) / 255.0 - 0.196) / (0.65 - 0.196);
+  const auto rounded = static_cast<std::int8_t>(std::rint(100.0 * ratio)),
+             cut = static_cast<std::int8_t>(1 + 98 * ratio);
+  const std::string scale = std::string(kYaml) + "mode: scale\n", raw = std::string(kYaml) + "mode: raw\n";
+  EXPECT_EQ(read_row(folder, bgra, scale), (std::vector<std::int8_t>{-1, -1, -1, rounded}));
+  EXPECT_EQ(read_map(folder / "map.yaml", MapRules::kRos1).cells, (std::vector<std::int8_t>{100, cut, -1, cut}));
+
+  cv::Mat bgr(1, 2, CV_8UC3);
+  bgr.at<cv::Vec3b>(0, 0) = {0, 225, 225};  // without blue, which ROS 1 takes for the opacity
+  bgr.at<cv::Vec3b>(0, 1) = {150, 150, 150};
+  EXPECT_EQ(read_row(folder, bgr, scale), (std::vector<std::int8_t>{rounded, rounded}));
+  EXPECT_EQ(read_map(folder / "map.yaml", MapRules::kRos1).cells, (std::vector<std::int8_t>{-1, cut}));
+
+  const cv::Mat grey = (cv::Mat_<std::uint8_t>(1, 5) << 0, 100, 101, 200, 255);
+  EXPECT_EQ(read_row(folder, grey, raw), (std::vector<std::int8_t>{0, 100, -1, -1, -1}));
+  EXPECT_EQ(read_map(folder / "map.yaml", MapRules::kRos1).cells, (std::vector<std::int8_t>{0, 100, 101, -56, -1}));
+  const std::string negated = std::string(raw).replace(raw.find("negate: 0"), 9, "negate: 1");
+  EXPECT_EQ(read_row(folder, grey, negated), (std::vector<std::int8_t>{0, 100, -1, -1, -1}));
+  EXPECT_EQ(read_map(folder / "map.yaml", MapRules::kRos1).cells, (std::vector<std::int8_t>{-1, -101, -102, 55, 0}));
+}
+
+TEST(MapServer, GivesProbabilitiesInPercent) {
+  grids::EvidentialGrid grid;
+  const auto seen = [](double empty, double occupied) {
+    return evidence::quantise(evidence::log_commonality({empty, occupied, 0.0, 1.0 - empty - occupied}, 0.95));
+  };
+  grid.add({0, 0}, seen(0.9, 0.0));                   // 0.855 empty, the rest unknown
+  grid.add({1, 0}, seen(0.9, 0.0) + seen(0.0, 0.9));  // as much for as against
+  grid.add({2, 0}, seen(0.1, 0.0));                   // too little to say anything
+  const OccupancyMap map = to_probabilities(grid);
+  EXPECT_EQ(map.cells, (std::vector<std::int8_t>{7, 50, -1}));
+  EXPECT_EQ(to_probabilities(grids::EvidentialGrid{}).cells, std::vector<std::int8_t>{-1});
+}
+
 TEST(MapServer, SaysWhereAMapIsWrong) {
   const TemporaryFolder folder;
   ASSERT_TRUE(cv::imwrite((folder / "map.png").string(), cv::Mat(2, 2, CV_8UC1, cv::Scalar(0))));
@@ -205,6 +312,7 @@ TEST(MapServer, SaysWhereAMapIsWrong) {
   expect_error("[-1.5, 2.0, 0.1]", "[-1.5, 2.0]", 3, "origin");
   expect_error("negate: 0", "negate: 2", 4, "negate");
   expect_error("free_thresh: 0.196", "free_thresh: 0.9", 6, "free_thresh");
+  expect_error("free_thresh: 0.196", "free_thresh: 0.65\nmode: scale", 6, "free_thresh");
   expect_error("free_thresh: 0.196", "free_thresh: 0.196\nmode: trinry", 7, "trinary");
   expect_error("image: map.png", "image: other.png", 0, "other.png");
   folder.write("broken.png", "\x89PNG no picture");

@@ -71,6 +71,26 @@ TEST(Layer, MassesOfACellSumToOne) {
   EXPECT_NEAR(one(Layer::kEmpty) / one(Layer::kOccupied), one(Layer::kRawEmpty) / one(Layer::kRawOccupied), 1e-3);
 }
 
+TEST(Layer, ReadOutsOfOccupiedLieBetweenBeliefAndPlausibility) {
+  EvidentialGrid grid;
+  int x = 0;
+  for (const auto& [empty, occupied] : {std::pair{0, 0}, {1, 0}, {0, 1}, {3, 2}, {1, 4}, {20, 20}, {300, 0}})
+    grid.add({x++, 0}, evidence_of(empty, occupied));
+  const CellBox box{{0, 0}, x, 1};
+  const auto belief = layer(grid, box, Layer::kOccupied), plausibility = layer(grid, box, Layer::kPlausibilityOccupied),
+             pignistic = layer(grid, box, Layer::kProbabilityOccupied), dsmp = layer(grid, box, Layer::kDsmpOccupied);
+  for (std::size_t i = 0; i < belief.size(); ++i) {
+    EXPECT_GE(pignistic[i], belief[i]) << i;
+    EXPECT_LE(pignistic[i], plausibility[i]) << i;
+    EXPECT_GE(dsmp[i], belief[i] - 1e-6F) << i;
+    EXPECT_LE(dsmp[i], plausibility[i] + 1e-6F) << i;
+  }
+  EXPECT_EQ(plausibility.front(), 1.0F);
+  EXPECT_EQ(dsmp.front(), 0.5F);
+  EXPECT_LT(dsmp[1], pignistic[1]);  // the ignorance goes where the masses are
+  EXPECT_GT(dsmp[2], pignistic[2]);
+}
+
 TEST(Layer, ReadsABoxThatIsPartlyOutside) {
   EvidentialGrid grid;
   grid.add({63, 63}, evidence_of(1, 0));

@@ -22,7 +22,7 @@ class MapFolder : public testing::Test {
  protected:
   void write(const grids::EvidentialGrid& grid, BeliefChannels channels) const {
     ResultsWriter writer(folder_, false);
-    writer.add_map(grid, {}, channels);
+    EXPECT_TRUE(writer.add_map(grid, {.channels = channels}));
     writer.add_config("format: credo-results/1\n");
     writer.finish();
   }
@@ -40,9 +40,31 @@ class MapFolder : public testing::Test {
   fs::path folder_ = temporary_ / "run";
 };
 
-TEST_F(MapFolder, KeepsPlaceMassesAndDecisions) {
+TEST_F(MapFolder, BringsAMapBackToTheBit) {
+  for (const BeliefChannels channels : {BeliefChannels::kNormalized, BeliefChannels::kRaw}) {
+    write(example(), channels);
+    EXPECT_EQ(read_map_folder(folder_), example());
+    fs::remove_all(folder_);
+  }
+}
+
+TEST_F(MapFolder, OfALargeMapHasNoPictures) {
+  grids::EvidentialGrid grid = example();
+  grid.add({100'000, 100'000}, {-1, -1, -2});
+  EXPECT_FALSE(write_map_folder(grid, temporary_.path()));
+  EXPECT_FALSE(fs::exists(temporary_ / "map.yaml"));
+  EXPECT_EQ(read_map_folder(temporary_.path()), grid);
+}
+
+TEST_F(MapFolder, WritesProbabilitiesWhereAsked) {
+  EXPECT_TRUE(write_map_folder(example(), temporary_.path(), {.mode = datasets::MapMode::kScale}));
+  EXPECT_EQ(datasets::read_map(temporary_ / "map.yaml"), datasets::to_probabilities(example()));
+}
+
+TEST_F(MapFolder, PicturesAloneKeepPlaceMassesAndDecisions) {
   const grids::EvidentialGrid grid = example();
   write(grid, BeliefChannels::kNormalized);
+  fs::remove(folder_ / "map.cgrid");
   const grids::EvidentialGrid back = read_map_folder(folder_);
   const grids::CellBox a = grid.bounding_box(), b = back.bounding_box();
   ASSERT_EQ(a.width, b.width);
@@ -57,8 +79,9 @@ TEST_F(MapFolder, KeepsPlaceMassesAndDecisions) {
   }
 }
 
-TEST_F(MapFolder, RefusesRawMassesAndMissingFiles) {
+TEST_F(MapFolder, RefusesPicturesOfRawMassesAndMissingFiles) {
   write(example(), BeliefChannels::kRaw);
+  fs::remove(folder_ / "map.cgrid");
   EXPECT_THAT([&] { (void)read_map_folder(folder_); },
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("--readout raw")));
   fs::remove(folder_ / "map.yaml");

@@ -27,6 +27,7 @@ TEST(MassMapFiles, CellsAreCalledByTheirProbability) {
   const OccupancyMap map = to_occupancy(small_map());
   EXPECT_THAT(map.cells, testing::ElementsAre(OccupancyMap::kFree, OccupancyMap::kOccupied, OccupancyMap::kUnknown,
                                               OccupancyMap::kUnknown));
+  EXPECT_THAT(to_probabilities(small_map()).cells, testing::ElementsAre(8, 80, 50, OccupancyMap::kUnknown));
   EXPECT_NEAR(map.origin_x_m, 1.4, 1e-12);
   EXPECT_NEAR(map.origin_y_m, -0.3, 1e-12);
 }
