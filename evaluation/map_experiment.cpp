@@ -64,6 +64,19 @@ grids::MassMap decided_by_belief(const grids::MassMap& map) {
   return decided;
 }
 
+grids::MassMap decided_by_zhu(const grids::MassMap& map, const mapping::ZhuDecisionParams& params) {
+  grids::MassMap decided = map;
+  for (evidence::GridMass& mass : decided.masses) {
+    const mapping::ZhuState state = decide_zhu(mass, params);
+    const bool empty = state == mapping::ZhuState::kEmpty, occupied = state == mapping::ZhuState::kOccupied;
+    mass = {.empty = empty ? 1.0 : 0.0,
+            .occupied = occupied ? 1.0 : 0.0,
+            .conflict = 0.0,
+            .unknown = empty || occupied ? 0.0 : 1.0};
+  }
+  return decided;
+}
+
 std::int64_t decided_differently(const grids::MassMap& a, const grids::MassMap& b) {
   if (a.box != b.box) throw std::invalid_argument("maps of different rectangles cannot be compared cell by cell");
   const auto sign = [](const evidence::GridMass& mass) {

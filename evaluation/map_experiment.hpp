@@ -42,6 +42,9 @@ struct MapMethod {
 /// included (eq. (2)), empty the rest.
 [[nodiscard]] grids::MassMap decided_by_belief(const grids::MassMap& map);
 
+/// Zhu, eq. (10): occupied, empty, or undecided.
+[[nodiscard]] grids::MassMap decided_by_zhu(const grids::MassMap& map, const mapping::ZhuDecisionParams& params = {});
+
 /// Cells that two maps of one place decide differently. \throws std::invalid_argument if their boxes differ
 [[nodiscard]] std::int64_t decided_differently(const grids::MassMap& a, const grids::MassMap& b);
 

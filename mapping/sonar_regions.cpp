@@ -51,10 +51,13 @@ ZhuSonar::ZhuSonar(const sensors::SonarRing& ring, const ZhuParams& params)
   check.positive("epsilon_m", params.epsilon_m);
   check.share("rho", params.rho);
   check.positive("cell_m", params.cell_m);
+  check.require(params.cells_of_arc == 0.0 || (std::isfinite(params.cells_of_arc) && params.cells_of_arc >= 1.0),
+                "cells_of_arc", params.cells_of_arc, "0, or a number of at least 1");
   check.share("reliability", params.reliability);
 }
 
 double ZhuSonar::cells_of_arc(double reading_m) const {
+  if (params_.cells_of_arc > 0.0) return params_.cells_of_arc;
   const double near = std::max(0.0, reading_m - params_.epsilon_m), far = reading_m + params_.epsilon_m;
   const double area = 0.5 * ring_.beam_width_rad * (far * far - near * near);
   return std::max(1.0, std::round(area / (params_.cell_m * params_.cell_m)));

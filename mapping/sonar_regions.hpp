@@ -56,8 +56,9 @@ struct ZhuParams {
   double epsilon_m = 0.05;  ///< range error
   double rho =
       0.2;  ///< mass of "empty"; not in the paper. A large one outweighs many readings of "occupied": 1 / cells
-  double cell_m = 0.05;                      ///< side of a cell, which the cells of the arc are counted in
-  double reliability = 1.0;                  ///< as in print
+  double cell_m = 0.05;       ///< side of a cell, which the cells of the arc are counted in
+  double cells_of_arc = 0.0;  ///< n of eq. (3), where it is the same for all readings; 0: as many as the arc has
+  double reliability = 1.0;   ///< as in print
   NoEchoParams no_echo{.reliability = 0.0};  ///< "effective only when the sensor can receive the echo"
 };
 

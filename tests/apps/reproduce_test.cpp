@@ -24,9 +24,23 @@ using testing::StartsWith;
 class ReproduceCommand : public Command {};
 
 TEST_F(ReproduceCommand, APaperThatCannotBeReproducedIsMetWithThoseThatCan) {
-  const Answer answer = credo("reproduce sonar");
+  const Answer answer = credo("reproduce radar");
   EXPECT_EQ(answer.status, 2);
-  EXPECT_THAT(answer.error, AllOf(HasSubstr("'sonar'"), HasSubstr("there are: clerentin")));
+  EXPECT_THAT(answer.error, AllOf(HasSubstr("'radar'"), HasSubstr("there are: clerentin")));
+}
+
+TEST_F(ReproduceCommand, TheMappingPapersAreReproducedToTheByte) {
+  for (const char* paper : {"sonar", "multi-robot"}) {
+    const std::string command = std::string("reproduce ") + paper + " --seeds 1";
+    const Answer text = credo(command + " --out out --force --pictures p");
+    ASSERT_EQ(text.status, 0) << text.error;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "p" / "maps.png"));
+    EXPECT_EQ(credo(command).out, read("out/report.txt"));
+    const json report = json::parse(read("out/report.json"));
+    EXPECT_GE(report["tables"].size(), 2u);
+  }
+  EXPECT_THAT(credo("reproduce sonar --seeds 1").out,
+              HasSubstr("differently from the same masses, over all seeds: 0."));
 }
 
 TEST_F(ReproduceCommand, ReproducePutsThePaperBesideBothMethodsOnTheSameReadings) {
