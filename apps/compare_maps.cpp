@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "apps/about.hpp"
@@ -21,6 +22,8 @@
 #include "apps/terminal.hpp"
 #include "datasets/map_server.hpp"
 #include "datasets/staged_folder.hpp"
+#include "datasets/truth_states.hpp"
+#include "evaluation/change_score.hpp"
 #include "evaluation/map_score.hpp"
 #include "mapping/map_rule.hpp"
 #include "results/map_sheet.hpp"
@@ -48,6 +51,7 @@ struct Line {
   mapping::RuleMap map;
   evaluation::MapScore score;
   double milliseconds = 0.0;
+  std::optional<evaluation::ChangeScore> changes;  ///< where the world changed
 };
 
 std::vector<std::string> all_models() {
@@ -62,7 +66,7 @@ std::vector<std::string> all_rules() {
 }
 
 Line map_with(const MapPart& part, const MapsOptions& o, const std::string& model, const std::string& rule,
-              const datasets::OccupancyMap& truth) {
+              const datasets::OccupancyMap& truth, std::span<const datasets::TruthState> states) {
   mapping::TrajectoryMappingParams params = o.params;
   SonarChoice sonar = o.sonar;
   sonar.model = model;
@@ -72,7 +76,11 @@ Line map_with(const MapPart& part, const MapsOptions& o, const std::string& mode
                                             mapping::map_rule(rule).rule, [](double) { Interruptible::check(); });
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   const evaluation::MapScore score = evaluation::map_score(map.map, truth);
-  return {model, rule, std::move(map), score, took.count()};
+  Line line{model, rule, std::move(map), score, took.count(), std::nullopt};
+  if (!states.empty() && !part.scans.empty())
+    line.changes = evaluation::change_score(part.path, part.rig, part.scans, states, params,
+                                            mapping::map_rule(rule).rule, [](double) { Interruptible::check(); });
+  return line;
 }
 
 datasets::OccupancyMap true_map(const std::string& source) {
@@ -98,6 +106,25 @@ std::string text_of(const std::vector<Line>& lines) {
   return text;
 }
 
+/// How the maps follow a world that changed; empty where it did not.
+std::string changes_text(const std::vector<Line>& lines) {
+  std::string text;
+  for (const Line& l : lines) {
+    if (!l.changes) continue;
+    if (text.empty())
+      text = fmt::format("\n{:<8} {:<14} {:>14} {:>14} {:>16}\n", "model", "rule", "after 3 sweeps", "after 5 sweeps",
+                         "unchanged wrong");
+    text +=
+        fmt::format("{:<8} {:<14} {:>13.2f}% {:>13.2f}% {:>15.3f}%\n", l.model, l.rule, 100.0 * l.changes->followed_3(),
+                    100.0 * l.changes->followed_5(), 100.0 * l.changes->wrong_share());
+  }
+  if (text.empty()) return text;
+  return text +
+         "\nOf cells that changed between free and occupied, those that are right in the third and fifth scan that "
+         "sees "
+         "them since;\nof cells that never changed and were seen in five scans, those that are wrong at the end.\n";
+}
+
 constexpr const char* kTerms =
     "\nCells that were seen and whose truth is known count, but for those more than one cell inside of a solid. "
     "decided:\n"
@@ -120,7 +147,10 @@ ordered_json json_of(const Line& l) {
           {"contour_m", number_or_null(l.score.contour_m)},
           {"missed_m", number_or_null(l.score.missed_m)},
           {"abandoned", l.map.abandoned},
-          {"ms", l.milliseconds}};
+          {"ms", l.milliseconds},
+          {"followed_after_3", number_or_null(l.changes ? std::optional(l.changes->followed_3()) : std::nullopt)},
+          {"followed_after_5", number_or_null(l.changes ? std::optional(l.changes->followed_5()) : std::nullopt)},
+          {"unchanged_wrong", number_or_null(l.changes ? std::optional(l.changes->wrong_share()) : std::nullopt)}};
 }
 
 std::string csv_of(const std::vector<Line>& lines) {
@@ -145,6 +175,7 @@ void draw(const fs::path& file, const std::vector<Line>& lines) {
 void execute(MapsOptions& o) {
   const Interruptible interruptible;
   const datasets::OccupancyMap truth = true_map(o.from.source);
+  const std::vector<datasets::TruthState> states = datasets::read_truth_states(o.from.source);
   const MapParts read = read_map_parts(o.from);
   const MapPart& part = read.parts.front();
   if (part.scans.empty() && part.sweeps.empty()) fail_without_readings(o.from);
@@ -155,7 +186,7 @@ void execute(MapsOptions& o) {
   Progress progress("mapping");
   for (const std::string& model : o.models)
     for (const std::string& rule : o.rules) {
-      lines.push_back(about(o.from.source, [&] { return map_with(part, o, model, rule, truth); }));
+      lines.push_back(about(o.from.source, [&] { return map_with(part, o, model, rule, truth, states); }));
       if (part.sweeps.empty()) lines.back().model = "laser";
       progress.update(static_cast<double>(lines.size()) / static_cast<double>(o.models.size() * o.rules.size()));
     }
@@ -168,7 +199,8 @@ void execute(MapsOptions& o) {
     print({{"dataset", o.from.source}, {"poses", read.poses}, {"maps", all}});
     return;
   }
-  std::printf("%s, mapped with %s\n%s%s", o.from.source.c_str(), read.poses.c_str(), text_of(lines).c_str(), kTerms);
+  std::printf("%s, mapped with %s\n%s%s%s", o.from.source.c_str(), read.poses.c_str(), text_of(lines).c_str(), kTerms,
+              changes_text(lines).c_str());
 }
 
 }  // namespace

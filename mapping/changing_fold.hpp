@@ -17,8 +17,8 @@ struct ChangingParams {
   double empty_kept_per_s = 0.99885;
   double occupied_kept_per_s = 0.99981;
   double settled_at = 0.9;   ///< belief from which a cell is in a state that readings can contradict
-  double changed_at = 0.98;  ///< belief in the opposite, of all readings since the first contradiction, from which the
-                             ///< cell has changed: three readings of a laser
+  double changed_at = 0.97;  ///< belief in the opposite, of all readings since the first contradiction, from which the
+                             ///< cell has changed: two readings of a laser that agree
   double settles_until = 0.5;  ///< belief in the state, of the same readings, from which the contradiction was noise
 };
 

@@ -15,7 +15,7 @@ using Point = Canvas::Point;
 constexpr Color kUnseen{224, 227, 232}, kIgnorance{176, 196, 228}, kConflict{214, 60, 120};
 constexpr double kGap = 18.0, kTitle = 34.0, kLegend = 30.0;
 
-Color color_of(const evidence::GridMass& mass) {
+Color sheet_color(const evidence::GridMass& mass) {
   const auto normal = evidence::without_conflict(mass);
   if (!normal) return kConflict;
   const double known = 1.0 - normal->unknown;
@@ -24,21 +24,21 @@ Color color_of(const evidence::GridMass& mass) {
 }
 
 /// A box of cells as a picture, highest row first.
-cv::Mat picture_of(const grids::MassMap& map, const grids::CellBox& box) {
+cv::Mat sheet_picture(const grids::MassMap& map, const grids::CellBox& box) {
   cv::Mat picture(std::max(1, box.height), std::max(1, box.width), CV_8UC3,
                   cv::Scalar(kUnseen.blue, kUnseen.green, kUnseen.red));
   for (int y = 0; y < box.height; ++y)
     for (int x = 0; x < box.width; ++x) {
       const grids::CellIndex cell{box.min.x + x, box.min.y + y};
       if (!map.saw(cell)) continue;
-      const Color c = color_of(map.at(cell));
+      const Color c = sheet_color(map.at(cell));
       picture.at<cv::Vec3b>(box.height - 1 - y, x) = {static_cast<uchar>(c.blue), static_cast<uchar>(c.green),
                                                       static_cast<uchar>(c.red)};
     }
   return picture;
 }
 
-void draw_legend(Canvas& canvas, double baseline) {
+void draw_sheet_legend(Canvas& canvas, double baseline) {
   struct Entry {
     Color color;
     const char* text;
@@ -70,10 +70,10 @@ cv::Mat map_sheet(std::span<const SheetMap> maps) {
     canvas.text(corner + Point(0.0, 12.0), maps[i].title, colors::kInk, 9.5, Anchor::kLeft, 1.2);
     canvas.text(corner + Point(0.0, 27.0), maps[i].caption, colors::kMuted, 8.0);
     const Point low = corner + Point(0.0, kTitle), high = low + Point(width, height);
-    canvas.image(picture_of(*maps[i].map, box), low, high);
+    canvas.image(sheet_picture(*maps[i].map, box), low, high);
     canvas.frame(low, high, colors::kMuted, 0.8);
   }
-  draw_legend(canvas, canvas.height() - 12.0);
+  draw_sheet_legend(canvas, canvas.height() - 12.0);
   return canvas.finish();
 }
 
