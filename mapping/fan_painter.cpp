@@ -85,8 +85,11 @@ void FanPainter::forget_tables_before(std::size_t bytes) {
 void FanPainter::paint_rows(const Fan& fan, const Table& table, double reading_m) {
   blocks_.clear();
   const CellRun rows = fan.rows();
+  runs_.resize(static_cast<std::size_t>(std::max(0, rows.end - rows.begin)));
+  CellRun* const runs = runs_.data();
+  for (int row = rows.begin; row < rows.end; ++row) runs[row - rows.begin] = fan.run(row);  // many at a time
   for (int row = rows.begin; row < rows.end; ++row) {
-    const CellRun run = fan.run(row);
+    const CellRun run = runs[row - rows.begin];
     const float y = static_cast<float>(row + 0.5 - fan.y());
     float x = static_cast<float>(run.begin + 0.5 - fan.x());
     window_.for_run(row, run.begin, run.end, [&](grids::Tile& tile, int place, int count) {
