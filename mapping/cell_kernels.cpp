@@ -61,10 +61,14 @@ template <typename Vector>
                                                   const FixedLogCommonality& increment) {
   const Lanes empty = increment.empty - Lanes{}, occupied = increment.occupied - Lanes{},
               unknown = increment.unknown - Lanes{};
-  const int end = stretch.place + stretch.count, last = (end - 1) / kLanes * kLanes;
+  const int end = stretch.place + stretch.count;
   int place = stretch.place / kLanes * kLanes;
+  if ((stretch.place | stretch.count) % kLanes == 0) {
+    for (; place < end; place += kLanes) add_to_cells(tile, place, empty, occupied, unknown);
+    return;
+  }
   Lanes inside = kFirstLanes + place >= Lanes{} + stretch.place;
-  for (; place < last; place += kLanes) {
+  for (; place + kLanes < end; place += kLanes) {
     add_to_cells(tile, place, Lanes(empty & inside), Lanes(occupied & inside), Lanes(unknown & inside));
     inside = Lanes{} - 1;
   }

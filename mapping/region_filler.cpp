@@ -41,9 +41,9 @@ struct RegionFiller::Winding {
     const std::uint64_t bit = std::uint64_t{region_class < kClasses} << (region_class % kClasses);
     inside = turns[region_class] != 0 ? inside | bit : inside & ~bit;
   }
-  void cross(const Crossing& crossing) {
-    turn(crossing.leave, -1);
-    turn(crossing.enter, 1);
+  void cross(const Passage& passage) {
+    turn(passage.leave, -1);
+    turn(passage.enter, 1);
   }
   [[nodiscard]] int highest() const { return inside != 0 ? static_cast<int>(std::bit_width(inside)) - 1 : kOutside; }
 };
@@ -122,23 +122,24 @@ void RegionFiller::measure() {
 }
 
 /// The edges that cross rows; most scans have many corners to a row.
-void RegionFiller::select_edges() {
-  edges_.resize(x_.size());
+std::span<const RegionFiller::Edge> RegionFiller::select_edges() {
+  if (edges_.size() < x_.size()) edges_.resize(x_.size());
   std::size_t count = 0;
   for (const Chain& chain : chains_) {
     const auto left = static_cast<std::int16_t>(chain.sides.left), right = static_cast<std::int16_t>(chain.sides.right);
+    const Passage up{left, right}, down{right, left};
     for (std::size_t i = chain.begin; i + 1 < chain.end; ++i) {
-      edges_[count] = {static_cast<std::uint32_t>(i), left, right};
+      edges_[count] = {static_cast<std::uint32_t>(i), rows_[i] < rows_[i + 1] ? up : down};
       count += rows_[i] != rows_[i + 1];
     }
   }
-  edges_.resize(count);
+  return std::span(edges_).first(count);
 }
 
 /// Crossings of all rows: counted first, then put where they belong.
-void RegionFiller::cross_rows() {
+void RegionFiller::cross_rows(std::span<const Edge> edges) {
   row_end_.assign(static_cast<std::size_t>(last_row_ - first_row_) + 1, 0);
-  for (const Edge& edge : edges_) {
+  for (const Edge& edge : edges) {
     const auto [low, high] = std::minmax(rows_[edge.from], rows_[edge.from + 1]);
     ++row_end_[low - first_row_];
     --row_end_[high - first_row_];
@@ -150,10 +151,10 @@ void RegionFiller::cross_rows() {
     total += in_row;
   }
   crossings_.resize(total);
-  for (const Edge& edge : edges_) {
+  for (const Edge& edge : edges) {
     const bool up = rows_[edge.from] < rows_[edge.from + 1];
     const std::size_t low = edge.from + (up ? 0 : 1), high = edge.from + (up ? 1 : 0);
-    Crossing crossing{first_columns_[edge.from], up ? edge.left : edge.right, up ? edge.right : edge.left};
+    Crossing crossing{first_columns_[edge.from], edge.passage};
     std::int32_t row = rows_[low];
     crossings_[row_end_[row - first_row_]++] = crossing;
     while (++row < rows_[high]) {
@@ -178,14 +179,14 @@ void RegionFiller::resolve(std::span<Crossing> crossings) {
   int here = kOutside;
   bool passed_on = true;  // no region overlaps another: what one crossing enters the next one leaves
   for (const Crossing& crossing : crossings) {
-    passed_on &= crossing.leave == here;
-    here = crossing.enter;
+    passed_on &= crossing.passage.leave == here;
+    here = crossing.passage.enter;
   }
   if (passed_on) return;
   Winding winding;
   for (Crossing& crossing : crossings) {
-    winding.cross(crossing);
-    crossing.enter = static_cast<std::int16_t>(winding.highest());
+    winding.cross(crossing.passage);
+    crossing.passage.enter = static_cast<std::int16_t>(winding.highest());
   }
 }
 
@@ -193,15 +194,18 @@ void RegionFiller::resolve(std::span<Crossing> crossings) {
 void RegionFiller::find_stretches(std::int32_t row, std::span<Crossing> crossings) {
   sort(crossings);
   resolve(crossings);
+  const int row_place = grids::place_in_tile({0, row});
+  std::vector<Stretch>* const of_tile = stretches_.data();
+  const std::int32_t first_tile = first_tile_column_;
   for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
-    if (crossings[i].enter == kOutside) continue;
+    const int region_class = crossings[i].passage.enter;
+    if (region_class == kOutside) continue;
     std::int32_t begin = crossings[i].column;
-    while (begin < crossings[i + 1].column) {  // tile by tile
-      const std::int32_t tile_column = begin >> grids::Tile::kShift;
-      const std::int32_t end = std::min(crossings[i + 1].column, (tile_column + 1) << grids::Tile::kShift);
-      const int place = grids::place_in_tile({begin, row});
-      append(stretches_[tile_column - first_tile_column_], place, end - begin, crossings[i].enter);
-      begin = end;
+    const std::int32_t end = crossings[i + 1].column;
+    for (std::int32_t tile = begin >> grids::Tile::kShift; begin < end; ++tile) {
+      const std::int32_t stop = std::min(end, (tile + 1) << grids::Tile::kShift);
+      append(of_tile[tile - first_tile], row_place | (begin & (grids::Tile::kSide - 1)), stop - begin, region_class);
+      begin = stop;
     }
   }
 }
@@ -219,8 +223,7 @@ void RegionFiller::add_stretches(grids::EvidentialGrid& grid, std::int32_t tile_
 void RegionFiller::fill(grids::EvidentialGrid& grid, std::span<const FixedLogCommonality> increments) {
   if (x_.empty()) return;
   measure();
-  select_edges();
-  cross_rows();
+  cross_rows(select_edges());
 
   for (std::vector<Stretch>& of_tile : stretches_) of_tile.clear();
   stretches_.resize(static_cast<std::size_t>(last_tile_column_ - first_tile_column_) + 1);

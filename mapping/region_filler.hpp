@@ -54,23 +54,27 @@ class RegionFiller {
     std::size_t begin, end;  ///< of its corners
     Sides sides;
   };
+  /// From left to right across an edge: the class before it and the one behind it.
+  struct Passage {
+    std::int16_t leave, enter;
+  };
   /// An edge that crosses rows: from corner `from` to the next.
   struct Edge {
     std::uint32_t from;
-    std::int16_t left, right;
+    Passage passage;
   };
   /// Where a row crosses an edge.
   struct Crossing {
-    std::int32_t column;        ///< the first cell whose centre is not left of the edge
-    std::int16_t leave, enter;  ///< the classes before and behind the edge
+    std::int32_t column;  ///< the first cell whose centre is not left of the edge
+    Passage passage;
   };
   struct Winding;
 
   void measure();
-  void select_edges();
-  void cross_rows();
-  static void sort(std::span<Crossing> crossings);
-  static void resolve(std::span<Crossing> crossings);
+  [[nodiscard]] std::span<const Edge> select_edges();
+  void cross_rows(std::span<const Edge> edges);
+  [[gnu::always_inline]] static inline void sort(std::span<Crossing> crossings);
+  [[gnu::always_inline]] static inline void resolve(std::span<Crossing> crossings);
   void find_stretches(std::int32_t row, std::span<Crossing> crossings);
   void add_stretches(grids::EvidentialGrid& grid, std::int32_t tile_row,
                      std::span<const evidence::FixedLogCommonality> increments);
