@@ -41,8 +41,8 @@ class Fan {
   double axis_x_, axis_y_;  // unit vector
   double radius_;
   double low_, high_;  // of the rows, from the apex
-  /// Where an edge crosses a row: slope * (height above the apex) + offset, from the apex; the slope of a level edge is
-  /// infinite, an end of the rows that the edge does not bound is beyond all cells.
+  /// Where an edge crosses a row, from the apex: slope * (height of the row above it) + offset. The slope of a level
+  /// edge is infinite; so is the offset at an end of the rows that the edge does not bound.
   struct Bound {
     double slope, offset;
   };
@@ -60,8 +60,8 @@ inline CellRun Fan::run(int row) const {
                             low_by_left_.slope * dy + low_by_left_.offset);
   const double high = lower(lower(half, high_by_right_.slope * dy + high_by_right_.offset),
                             high_by_left_.slope * dy + high_by_left_.offset);
-  return {first_centre(x_ + lower(low, half)),
-          first_centre(x_ + higher(high, -half))};  // where none does, in reach too
+  // Where none does, low is above high; both stay in reach.
+  return {first_centre(x_ + lower(low, half)), first_centre(x_ + higher(high, -half))};
 }
 
 }  // namespace credo::mapping
