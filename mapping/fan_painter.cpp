@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "grids/instructions.hpp"
 #include "mapping/resolution_fit.hpp"
 
 namespace credo::mapping {
@@ -87,7 +88,10 @@ void FanPainter::paint_rows(const Fan& fan, const Table& table, double reading_m
   const CellRun rows = fan.rows();
   runs_.resize(static_cast<std::size_t>(std::max(0, rows.end - rows.begin)));
   CellRun* const runs = runs_.data();
-  for (int row = rows.begin; row < rows.end; ++row) runs[row - rows.begin] = fan.run(row);  // many at a time
+  grids::run_with(
+      grids::best_instructions(), [ fan, rows, runs ]() __attribute__((always_inline)) {
+        for (int row = rows.begin; row < rows.end; ++row) runs[row - rows.begin] = fan.run(row);
+      });
   for (int row = rows.begin; row < rows.end; ++row) {
     const CellRun run = runs[row - rows.begin];
     const float y = static_cast<float>(row + 0.5 - fan.y());

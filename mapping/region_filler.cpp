@@ -9,6 +9,7 @@
 #include <cassert>
 #include <limits>
 
+#include "grids/instructions.hpp"
 #include "mapping/tile_window.hpp"
 
 namespace credo::mapping {
@@ -95,30 +96,33 @@ void RegionFiller::measure() {
   std::int32_t* const rows = rows_.data();
   double* const slopes = slopes_.data();
   std::int32_t* const columns = first_columns_.data();
-  constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min(),
-                         kMost = std::numeric_limits<std::int32_t>::max();
-  std::int32_t low_row = kMost, high_row = kLeast, low_column = kMost, high_column = kLeast;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::int32_t column = first_centre(x[i]), row = first_centre(y[i]);
-    rows[i] = row;
-    low_row = std::min(low_row, row);
-    high_row = std::max(high_row, row);
-    low_column = std::min(low_column, column);
-    high_column = std::max(high_column, column);
-  }
-  first_row_ = low_row;
-  last_row_ = high_row;
-  first_tile_column_ = (low_column - 1) >> grids::Tile::kShift;  // crossings may be rounded beyond the corners
-  last_tile_column_ = (high_column + 1) >> grids::Tile::kShift;
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    const bool up = rows[i] < rows[i + 1];  // both directions of an edge must cross a row at the same place
-    const double low_x = up ? x[i] : x[i + 1], high_x = up ? x[i + 1] : x[i];
-    const double low_y = up ? y[i] : y[i + 1], high_y = up ? y[i + 1] : y[i];
-    const std::int32_t row = std::min(rows[i], rows[i + 1]);
-    const double slope = rows[i] != rows[i + 1] ? (high_x - low_x) / (high_y - low_y) : 0.0;
-    slopes[i] = slope;
-    columns[i] = first_centre(low_x + (row + 0.5 - low_y) * slope);
-  }
+  grids::run_with(
+      grids::best_instructions(), [ this, count, x, y, rows, slopes, columns ]() __attribute__((always_inline)) {
+        constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min(),
+                               kMost = std::numeric_limits<std::int32_t>::max();
+        std::int32_t low_row = kMost, high_row = kLeast, low_column = kMost, high_column = kLeast;
+        for (std::size_t i = 0; i < count; ++i) {
+          const std::int32_t column = first_centre(x[i]), row = first_centre(y[i]);
+          rows[i] = row;
+          low_row = std::min(low_row, row);
+          high_row = std::max(high_row, row);
+          low_column = std::min(low_column, column);
+          high_column = std::max(high_column, column);
+        }
+        first_row_ = low_row;
+        last_row_ = high_row;
+        first_tile_column_ = (low_column - 1) >> grids::Tile::kShift;  // crossings may be rounded beyond the corners
+        last_tile_column_ = (high_column + 1) >> grids::Tile::kShift;
+        for (std::size_t i = 0; i + 1 < count; ++i) {
+          const bool up = rows[i] < rows[i + 1];  // both directions of an edge must cross a row at the same place
+          const double low_x = up ? x[i] : x[i + 1], high_x = up ? x[i + 1] : x[i];
+          const double low_y = up ? y[i] : y[i + 1], high_y = up ? y[i + 1] : y[i];
+          const std::int32_t row = std::min(rows[i], rows[i + 1]);
+          const double slope = rows[i] != rows[i + 1] ? (high_x - low_x) / (high_y - low_y) : 0.0;
+          slopes[i] = slope;
+          columns[i] = first_centre(low_x + (row + 0.5 - low_y) * slope);
+        }
+      });
 }
 
 /// The edges that cross rows; most scans have many corners to a row.

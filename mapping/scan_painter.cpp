@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "geometry/segment.hpp"
+#include "grids/instructions.hpp"
 #include "mapping/resolution_fit.hpp"
 
 namespace credo::mapping {
@@ -101,42 +101,50 @@ ScanPainter::Counts ScanPainter::classify(std::span<const float> ranges_m, const
   const float* const half_widths_m = tables_.half_width_m.data();
   const float* const margins_m = tables_.free_margin_m.data();
   const float* const hit_shares = tables_.hit_share.data();
-  int echoes = 0, no_returns = 0, missing = 0;
+  Counts counts;
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
+        int echoes = 0, no_returns = 0, missing = 0;
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-    const double reading_m = ranges_m[i];
-    const bool echo = (reading_m >= least_m) & (reading_m <= most_m);
-    echoes += echo;
-    no_returns += reading_m == kInfinity;
-    missing += reading_m != reading_m;
+        for (std::size_t i = 0; i < ranges_m.size(); ++i) {
+          const double reading_m = ranges_m[i];
+          const bool echo = (reading_m >= least_m) & (reading_m <= most_m);
+          echoes += echo;
+          no_returns += reading_m == kInfinity;
+          missing += reading_m != reading_m;
 
-    const double range_m = echo ? reading_m : 0.0;
-    const auto bin = static_cast<std::int32_t>(range_m * bins_per_metre);
-    const double half_width_m = half_widths_m[bin], margin_m = margins_m[bin], hit_share = hit_shares[bin];
-    const double trust = reliability.at(std::min(range_m, reach_m));
-    const int free = free_class(trust), hit = hit_class(trust * hit_share);
-    const double free_m = std::min(std::max(0.0, range_m - margin_m), reach_m);
-    const double near_m = std::max(0.0, range_m - half_width_m), far_m = range_m + half_width_m;
-    range_m_[i] = range_m;
-    free_class_[i] = echo ? free : -1;
-    hit_class_[i] = echo & (range_m <= max_range_m) ? hit : -1;
-    free_.length_m[i] = echo ? free_m : 0.0;
-    near_.length_m[i] = echo ? near_m : 0.0;
-    far_.length_m[i] = echo ? far_m : 0.0;
+          const double range_m = echo ? reading_m : 0.0;
+          const auto bin = static_cast<std::int32_t>(range_m * bins_per_metre);
+          const double half_width_m = half_widths_m[bin], margin_m = margins_m[bin], hit_share = hit_shares[bin];
+          const double trust = reliability.at(std::min(range_m, reach_m));
+          const int free = free_class(trust), hit = hit_class(trust * hit_share);
+          const double free_m = std::min(std::max(0.0, range_m - margin_m), reach_m);
+          const double near_m = std::max(0.0, range_m - half_width_m), far_m = range_m + half_width_m;
+          range_m_[i] = range_m;
+          free_class_[i] = echo ? free : -1;
+          hit_class_[i] = echo & (range_m <= max_range_m) ? hit : -1;
+          free_.length_m[i] = echo ? free_m : 0.0;
+          near_.length_m[i] = echo ? near_m : 0.0;
+          far_.length_m[i] = echo ? far_m : 0.0;
+        }
+        counts = {.echoes = echoes,
+                  .no_returns = no_returns,
+                  .missing = missing,
+                  .out_of_range = static_cast<int>(ranges_m.size()) - echoes - no_returns - missing};
+      });
+  if (counts.no_returns > 0) classify_no_returns(ranges_m, reliability);
+  return counts;
+}
+
+/// Beams that nothing came back from; few in most scans.
+void ScanPainter::classify_no_returns(std::span<const float> ranges_m, const PoseReliability& reliability) {
+  const double free_m = std::min({params_.no_return_range_m, params_.max_range_m, range_finder_.range_max_m});
+  const int free = free_class(tables_.no_return_reliability * reliability.at(free_m));
+  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
+    if (ranges_m[i] != std::numeric_limits<float>::infinity()) continue;
+    free_class_[i] = free;
+    free_.length_m[i] = free_m;
   }
-  if (no_returns > 0) {
-    const double free_m = std::min(params_.no_return_range_m, reach_m);
-    const int free = free_class(tables_.no_return_reliability * reliability.at(free_m));
-    for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-      if (ranges_m[i] != kInfinity) continue;
-      free_class_[i] = free;
-      free_.length_m[i] = free_m;
-    }
-  }
-  return {.echoes = echoes,
-          .no_returns = no_returns,
-          .missing = missing,
-          .out_of_range = static_cast<int>(ranges_m.size()) - echoes - no_returns - missing};
 }
 
 /// Beams [begin, end) are taken from one pose.
@@ -144,13 +152,16 @@ void ScanPainter::set_pose(std::size_t begin, std::size_t end, const Pose2& sens
   const double c = std::cos(sensor.theta), s = std::sin(sensor.theta);
   const double x = (sensor.x - georeference_.origin_x_m) / georeference_.resolution_m;
   const double y = (sensor.y - georeference_.origin_y_m) / georeference_.resolution_m;
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
 #pragma GCC ivdep
-  for (std::size_t i = begin; i < end; ++i) {
-    origin_x_[i] = x;
-    origin_y_[i] = y;
-    direction_x_[i] = c * sensor_x_[i] - s * sensor_y_[i];
-    direction_y_[i] = s * sensor_x_[i] + c * sensor_y_[i];
-  }
+        for (std::size_t i = begin; i < end; ++i) {
+          origin_x_[i] = x;
+          origin_y_[i] = y;
+          direction_x_[i] = c * sensor_x_[i] - s * sensor_y_[i];
+          direction_y_[i] = s * sensor_x_[i] + c * sensor_y_[i];
+        }
+      });
 }
 
 /// Origins and directions of the beams, each when it was taken.
@@ -183,52 +194,66 @@ double ScanPainter::place(const Pose2& T_map_base, const sensors::MotionPath& pa
   return moved_m;
 }
 
-/// Which neighbours hit one surface. Where it is met at a grazing angle, the occupied part is widened so that every
-/// cell that the surface passes through has its centre in it: about half a cell to either side of the surface.
+/// Which neighbours hit one surface.
 void ScanPainter::join() {
   const double min_sine = std::sin(params_.min_incidence_rad);
   const double resolution = georeference_.resolution_m;
   const std::size_t count = range_m_.size();
   sine_before_.front() = sine_after_.back() = 0.0;
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
 #pragma GCC ivdep
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    const double along_x = range_m_[i + 1] * direction_x_[i + 1] - range_m_[i] * direction_x_[i] +
-                           (origin_x_[i + 1] - origin_x_[i]) * resolution;
-    const double along_y = range_m_[i + 1] * direction_y_[i + 1] - range_m_[i] * direction_y_[i] +
-                           (origin_y_[i + 1] - origin_y_[i]) * resolution;
-    const double length = std::sqrt(along_x * along_x + along_y * along_y);
-    const double across = std::abs(direction_x_[i] * along_y - direction_y_[i] * along_x);
-    const double across_next = std::abs(direction_x_[i + 1] * along_y - direction_y_[i + 1] * along_x);
-    const bool joined =
-        (hit_class_[i] >= 0) & (hit_class_[i + 1] >= 0) & (length > 0.0) & (across >= min_sine * length);
-    const double divisor = joined ? length : 1.0;
-    sine_after_[i] = joined ? across / divisor : 0.0;
-    sine_before_[i + 1] = joined ? std::max(min_sine, across_next / divisor) : 0.0;
-  }
-  const double across_m = kWallHalfCells * resolution;
+        for (std::size_t i = 0; i + 1 < count; ++i) {
+          const double along_x = range_m_[i + 1] * direction_x_[i + 1] - range_m_[i] * direction_x_[i] +
+                                 (origin_x_[i + 1] - origin_x_[i]) * resolution;
+          const double along_y = range_m_[i + 1] * direction_y_[i + 1] - range_m_[i] * direction_y_[i] +
+                                 (origin_y_[i + 1] - origin_y_[i]) * resolution;
+          const double length = std::sqrt(along_x * along_x + along_y * along_y);
+          const double across = std::abs(direction_x_[i] * along_y - direction_y_[i] * along_x);
+          const double across_next = std::abs(direction_x_[i + 1] * along_y - direction_y_[i + 1] * along_x);
+          const bool joined =
+              (hit_class_[i] >= 0) & (hit_class_[i + 1] >= 0) & (length > 0.0) & (across >= min_sine * length);
+          const double divisor = joined ? length : 1.0;
+          sine_after_[i] = joined ? across / divisor : 0.0;
+          sine_before_[i + 1] = joined ? std::max(min_sine, across_next / divisor) : 0.0;
+        }
+      });
+}
+
+/// Where a surface is met at a grazing angle, the occupied part is widened so that every cell that the surface passes
+/// through has its centre in it: about half a cell to either side of the surface.
+void ScanPainter::widen() {
+  const std::size_t count = range_m_.size();
+  const double across_m = kWallHalfCells * georeference_.resolution_m;
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < count; ++i) {
-    const double before = sine_before_[i], after = sine_after_[i];
-    const double range_m = range_m_[i], free_m = free_.length_m[i], near_m = near_.length_m[i],
-                 far_m = far_.length_m[i];
-    const double sine = before > after ? before : after;  // of two surfaces, the one met more steeply
-    const bool widened = (sine > 0.0) & ((far_m - range_m) * sine < across_m);
-    const double half_m = across_m / (widened ? sine : 1.0);
-    const double wide_near_m = std::max(0.0, range_m - half_m), wide_far_m = range_m + half_m;
-    const double wide_free_m = std::min(free_m, wide_near_m);
-    far_.length_m[i] = widened ? wide_far_m : far_m;
-    near_.length_m[i] = widened ? wide_near_m : near_m;
-    free_.length_m[i] = widened ? wide_free_m : free_m;
-  }
+        for (std::size_t i = 0; i < count; ++i) {
+          const double before = sine_before_[i], after = sine_after_[i];
+          const double range_m = range_m_[i], free_m = free_.length_m[i], near_m = near_.length_m[i],
+                       far_m = far_.length_m[i];
+          const double sine = before > after ? before : after;  // of two surfaces, the one met more steeply
+          const bool widened = (sine > 0.0) & ((far_m - range_m) * sine < across_m);
+          const double half_m = across_m / (widened ? sine : 1.0);
+          const double wide_near_m = std::max(0.0, range_m - half_m), wide_far_m = range_m + half_m;
+          const double wide_free_m = std::min(free_m, wide_near_m);
+          far_.length_m[i] = widened ? wide_far_m : far_m;
+          near_.length_m[i] = widened ? wide_near_m : near_m;
+          free_.length_m[i] = widened ? wide_free_m : free_m;
+        }
+      });
 }
 
 void ScanPainter::measure(Outline& outline) const {
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < outline.x.size(); ++i) {
-    const double length = outline.length_m[i] * cells_per_metre_;
-    outline.x[i] = origin_x_[i] + length * direction_x_[i];
-    outline.y[i] = origin_y_[i] + length * direction_y_[i];
-  }
+        for (std::size_t i = 0; i < outline.x.size(); ++i) {
+          const double length = outline.length_m[i] * cells_per_metre_;
+          outline.x[i] = origin_x_[i] + length * direction_x_[i];
+          outline.y[i] = origin_y_[i] + length * direction_y_[i];
+        }
+      });
 }
 
 /// Where an outline meets a side of a beam's sector. \param turn  1: the last side in the order of the beams, -1: the
@@ -312,6 +337,7 @@ ScanPainter::Counts ScanPainter::paint(grids::EvidentialGrid& grid, const Pose2&
     throw std::out_of_range("the motion given with a scan carries the sensor " + std::to_string(moved_m) +
                             " m away within the scan: leave the motion out or correct it");
   join();
+  widen();
   const double reach_m = std::max(greatest(free_.length_m), greatest(far_.length_m)) + moved_m;
   const Eigen::Vector2d here = T_map_base * range_finder_.T_base_sensor.translation();
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach_m + 2.0 * georeference_.resolution_m);

@@ -77,9 +77,11 @@ class ScanPainter {
   using Point = RegionFiller::Corner;
 
   Counts classify(std::span<const float> ranges_m, const PoseReliability& reliability);
+  void classify_no_returns(std::span<const float> ranges_m, const PoseReliability& reliability);
   double place(const geometry::Pose2& T_map_base, const sensors::MotionPath& path, sensors::Timestamp time);
   void set_pose(std::size_t begin, std::size_t end, const geometry::Pose2& sensor);
   void join();
+  void widen();
   void measure(Outline& outline) const;
   [[nodiscard]] Point origin(std::size_t beam) const { return {origin_x_[beam], origin_y_[beam]}; }
   [[nodiscard]] Point side(std::size_t beam, const Outline& outline, double turn) const;
