@@ -55,19 +55,25 @@ template <typename Vector>
   store(u, tile.unknown.data() + place);
 }
 
-/// Adds to all cells of a stretch. The cells that fill the last block up are written too, with what they hold.
+/// Adds to all cells of a stretch, by blocks that lie in one line of the cache each. What else is in the first and in
+/// the last block is written too, with what it holds.
 [[gnu::always_inline]] inline void add_to_stretch(Tile& tile, const Stretch& stretch,
                                                   const FixedLogCommonality& increment) {
   const Lanes empty = increment.empty - Lanes{}, occupied = increment.occupied - Lanes{},
               unknown = increment.unknown - Lanes{};
-  int place = stretch.place;
-  const int end = place + stretch.count;
-  for (; place + kLanes <= end; place += kLanes) add_to_cells(tile, place, empty, occupied, unknown);
-  if (place == end) return;
-  const int first = std::min(place, Tile::kCells - kLanes);
-  const Lanes lane = kFirstLanes + first;
-  const Lanes inside = (lane >= place) & (lane < end);
-  add_to_cells(tile, first, Lanes(empty & inside), Lanes(occupied & inside), Lanes(unknown & inside));
+  const int end = stretch.place + stretch.count;
+  int place = stretch.place / kLanes * kLanes;
+  if ((stretch.place | stretch.count) % kLanes == 0) {
+    for (; place < end; place += kLanes) add_to_cells(tile, place, empty, occupied, unknown);
+    return;
+  }
+  Lanes inside = kFirstLanes + place >= Lanes{} + stretch.place;
+  for (; place + kLanes < end; place += kLanes) {
+    add_to_cells(tile, place, Lanes(empty & inside), Lanes(occupied & inside), Lanes(unknown & inside));
+    inside = Lanes{} - 1;
+  }
+  inside &= kFirstLanes + place < Lanes{} + end;
+  add_to_cells(tile, place, Lanes(empty & inside), Lanes(occupied & inside), Lanes(unknown & inside));
 }
 
 /// Where in the table the cells of a block look; those that fill it up look at the vacuous entry.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mapping/tile_window.hpp"
 
@@ -25,10 +26,13 @@ Fan::Fan(const grids::Georeference& georeference, const geometry::Pose2& pose, d
   high_ = radius_ * (right_x > 0.0 && left_x < 0.0 ? 1.0 : std::max({0.0, right_y, left_y}));
 
   // Inside is what lies to the left of the right edge, and to the right of the left one, seen from the apex.
-  right_slope_ = right_x / right_y;
-  left_slope_ = left_x / left_y;
-  right_is_high_ = right_y >= 0.0;
-  left_is_low_ = left_y >= 0.0;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Bound right{right_x / right_y, 0.0}, left{left_x / left_y, 0.0};
+  const Bound lowest{0.0, -kInfinity}, highest{0.0, kInfinity};
+  low_by_right_ = right_y >= 0.0 ? lowest : right;
+  low_by_left_ = left_y >= 0.0 ? left : lowest;
+  high_by_right_ = right_y >= 0.0 ? right : highest;
+  high_by_left_ = left_y >= 0.0 ? highest : left;
 }
 
 CellRun Fan::rows() const { return {first_centre(y_ + low_), first_centre(y_ + high_)}; }

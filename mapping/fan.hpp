@@ -41,20 +41,27 @@ class Fan {
   double axis_x_, axis_y_;  // unit vector
   double radius_;
   double low_, high_;  // of the rows, from the apex
-  // Where the edges cross a row, per row above the apex; infinite for level ones.
-  double right_slope_, left_slope_;
-  bool right_is_high_, left_is_low_;  // which end of a row the edges bound
+  /// Where an edge crosses a row, from the apex: slope * (height of the row above it) + offset. The slope of a level
+  /// edge is infinite; so is the offset at an end of the rows that the edge does not bound.
+  struct Bound {
+    double slope, offset;
+  };
+  Bound low_by_right_, low_by_left_, high_by_right_, high_by_left_;
 };
 
+// Without branches, so that the rows of a fan are done many at a time.
 inline CellRun Fan::run(int row) const {
+  const auto higher = [](double a, double b) { return a < b ? b : a; };  // a where b is nan
+  const auto lower = [](double a, double b) { return b < a ? b : a; };
   const double dy = row + 0.5 - y_;
-  const double half = std::sqrt(std::max(0.0, radius_ * radius_ - dy * dy));
+  const double half = std::sqrt(higher(0.0, radius_ * radius_ - dy * dy));
   // In this order, a nan, of a level edge in its own row, bounds nothing.
-  const double right = dy * right_slope_, left = dy * left_slope_;
-  const double low = std::max(std::max(-half, right_is_high_ ? -half : right), left_is_low_ ? left : -half);
-  const double high = std::min(std::min(half, right_is_high_ ? right : half), left_is_low_ ? half : left);
-  const bool some = low < high;  // no branch: it would be hard to foretell
-  return {first_centre(x_ + (some ? low : 0.0)), first_centre(x_ + (some ? high : 0.0))};
+  const double low = higher(higher(-half, low_by_right_.slope * dy + low_by_right_.offset),
+                            low_by_left_.slope * dy + low_by_left_.offset);
+  const double high = lower(lower(half, high_by_right_.slope * dy + high_by_right_.offset),
+                            high_by_left_.slope * dy + high_by_left_.offset);
+  // Where none does, low is above high; both stay in reach.
+  return {first_centre(x_ + lower(low, half)), first_centre(x_ + higher(high, -half))};
 }
 
 }  // namespace credo::mapping

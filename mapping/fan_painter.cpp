@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "grids/instructions.hpp"
 #include "mapping/resolution_fit.hpp"
 
 namespace credo::mapping {
@@ -85,8 +86,14 @@ void FanPainter::forget_tables_before(std::size_t bytes) {
 void FanPainter::paint_rows(const Fan& fan, const Table& table, double reading_m) {
   blocks_.clear();
   const CellRun rows = fan.rows();
+  runs_.resize(static_cast<std::size_t>(std::max(0, rows.end - rows.begin)));
+  CellRun* const runs = runs_.data();
+  grids::run_with(
+      grids::best_instructions(), [ fan, rows, runs ]() __attribute__((always_inline)) {
+        for (int row = rows.begin; row < rows.end; ++row) runs[row - rows.begin] = fan.run(row);
+      });
   for (int row = rows.begin; row < rows.end; ++row) {
-    const CellRun run = fan.run(row);
+    const CellRun run = runs[row - rows.begin];
     const float y = static_cast<float>(row + 0.5 - fan.y());
     float x = static_cast<float>(run.begin + 0.5 - fan.x());
     window_.for_run(row, run.begin, run.end, [&](grids::Tile& tile, int place, int count) {

@@ -52,6 +52,7 @@ class FanPainter {
   std::size_t table_bytes_ = 0;
   std::array<double, FanTable::kAngleBins> angles_rad_{};  ///< from the axis, in the middle of the bins
   TileWindow window_;
+  std::vector<CellRun> runs_;  ///< of the rows of the fan at hand
   std::vector<FanBlock> blocks_;
 };
 

@@ -4,13 +4,15 @@
 #include "mapping/scan_painter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "geometry/segment.hpp"
+#include "grids/instructions.hpp"
 #include "mapping/resolution_fit.hpp"
 
 namespace credo::mapping {
@@ -28,8 +30,14 @@ int hit_class(double reliability) {
   return level > 0 ? kLevels + level - 1 : -1;
 }
 
-Eigen::Vector2d turned(const Eigen::Vector2d& v, double c, double s) {
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+/// The greatest of some lengths, 0 if there is none; eight at a time.
+double greatest(const std::vector<double>& lengths) {
+  std::array<double, 8> most{};
+  std::size_t i = 0;
+  for (; i + most.size() <= lengths.size(); i += most.size())
+    for (std::size_t k = 0; k < most.size(); ++k) most[k] = most[k] > lengths[i + k] ? most[k] : lengths[i + k];
+  for (; i < lengths.size(); ++i) most[0] = std::max(most[0], lengths[i]);
+  return std::ranges::max(most);
 }
 
 void require(bool holds, const std::string& message) {
@@ -62,74 +70,116 @@ ScanPainter::ScanPainter(const sensors::RangeFinder& range_finder, const grids::
   touching_ = half <= params.max_half_sector_rad;
   const double half_sector_rad =
       std::copysign(std::min(half, params.max_half_sector_rad), range_finder.angle_increment_rad);
-  half_sector_ = {std::cos(half_sector_rad), std::sin(half_sector_rad)};
+  half_sector_cos_ = std::cos(half_sector_rad);
+  half_sector_sin_ = std::sin(half_sector_rad);
   cells_per_metre_ = 1.0 / georeference.resolution_m;
   for (int beam = 0; beam < range_finder.count; ++beam) {
     const double angle = range_finder.beam_angle(beam);
-    directions_.emplace_back(std::cos(angle), std::sin(angle));
+    sensor_x_.push_back(std::cos(angle));
+    sensor_y_.push_back(std::sin(angle));
   }
   for (int level = 1; level <= kLevels; ++level) {
     increments_[level - 1] = tables_.free[level];
     increments_[kLevels + level - 1] = tables_.hit[level];
   }
-  beams_.resize(range_finder.count);
+  const auto count = static_cast<std::size_t>(range_finder.count);
+  for (std::vector<double>* values :
+       {&origin_x_, &origin_y_, &direction_x_, &direction_y_, &range_m_, &sine_before_, &sine_after_, &free_.length_m,
+        &free_.x, &free_.y, &near_.length_m, &near_.x, &near_.y, &far_.length_m, &far_.x, &far_.y})
+    values->resize(count);
+  free_class_.resize(count);
+  hit_class_.resize(count);
 }
 
-/// What every beam says, and how strongly.
+/// What every beam says, and how strongly. As all loops over the beams without a branch, and told (`ivdep`) that the
+/// arrays do not overlap, so that it is vectorised.
 ScanPainter::Counts ScanPainter::classify(std::span<const float> ranges_m, const PoseReliability& reliability) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double reach_m = std::min(params_.max_range_m, range_finder_.range_max_m);
-  const double no_return_m = std::min(params_.no_return_range_m, reach_m);
-  const int no_return_class = free_class(tables_.no_return_reliability * reliability.at(no_return_m));
+  const double least_m = range_finder_.range_min_m, most_m = range_finder_.range_max_m,
+               max_range_m = params_.max_range_m;
+  const double bins_per_metre = tables_.bins_per_metre;
+  const float* const half_widths_m = tables_.half_width_m.data();
+  const float* const margins_m = tables_.free_margin_m.data();
+  const float* const hit_shares = tables_.hit_share.data();
   Counts counts;
-  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-    Beam& beam = beams_[i];
-    const double range_m = ranges_m[i];
-    beam.range_m = 0.0;
-    beam.free_m = beam.near_m = beam.far_m = 0.0;
-    beam.free_class = beam.hit_class = -1;
-    if (std::isnan(range_m)) {
-      ++counts.missing;
-    } else if (std::isinf(range_m) && range_m > 0.0) {
-      ++counts.no_returns;
-      beam.free_m = no_return_m;
-      beam.free_class = no_return_class;
-    } else if (range_m < range_finder_.range_min_m || range_m > range_finder_.range_max_m) {
-      ++counts.out_of_range;
-    } else {
-      ++counts.echoes;
-      const auto bin = static_cast<std::size_t>(range_m * tables_.bins_per_metre);
-      const double half_width_m = tables_.half_width_m[bin];
-      const double trust = reliability.at(std::min(range_m, reach_m));
-      beam.range_m = range_m;
-      beam.free_class = free_class(trust);
-      if (range_m <= params_.max_range_m) beam.hit_class = hit_class(trust * tables_.hit_share[bin]);
-      beam.free_m = std::min(std::max(0.0, range_m - tables_.free_margin_m[bin]), reach_m);
-      beam.near_m = std::max(0.0, range_m - half_width_m);
-      beam.far_m = range_m + half_width_m;
-    }
-  }
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
+        int echoes = 0, no_returns = 0, missing = 0;
+#pragma GCC ivdep
+        for (std::size_t i = 0; i < ranges_m.size(); ++i) {
+          const double reading_m = ranges_m[i];
+          const bool echo = (reading_m >= least_m) & (reading_m <= most_m);
+          echoes += echo;
+          no_returns += reading_m == kInfinity;
+          missing += reading_m != reading_m;
+
+          const double range_m = echo ? reading_m : 0.0;
+          const auto bin = static_cast<std::int32_t>(range_m * bins_per_metre);
+          const double half_width_m = half_widths_m[bin], margin_m = margins_m[bin], hit_share = hit_shares[bin];
+          const double trust = reliability.at(std::min(range_m, reach_m));
+          const int free = free_class(trust), hit = hit_class(trust * hit_share);
+          const double free_m = std::min(std::max(0.0, range_m - margin_m), reach_m);
+          const double near_m = std::max(0.0, range_m - half_width_m), far_m = range_m + half_width_m;
+          range_m_[i] = range_m;
+          free_class_[i] = echo ? free : -1;
+          hit_class_[i] = echo & (range_m <= max_range_m) ? hit : -1;
+          free_.length_m[i] = echo ? free_m : 0.0;
+          near_.length_m[i] = echo ? near_m : 0.0;
+          far_.length_m[i] = echo ? far_m : 0.0;
+        }
+        counts = {.echoes = echoes,
+                  .no_returns = no_returns,
+                  .missing = missing,
+                  .out_of_range = static_cast<int>(ranges_m.size()) - echoes - no_returns - missing};
+      });
+  if (counts.no_returns > 0) classify_no_returns(ranges_m, reliability);
   return counts;
 }
 
-/// Origins and directions of the beams, in cells, each when it was taken.
-void ScanPainter::place(const Pose2& T_map_base, const sensors::MotionPath& path, sensors::Timestamp time) {
+/// Beams that nothing came back from; few in most scans.
+void ScanPainter::classify_no_returns(std::span<const float> ranges_m, const PoseReliability& reliability) {
+  const double free_m = std::min({params_.no_return_range_m, params_.max_range_m, range_finder_.range_max_m});
+  const int free = free_class(tables_.no_return_reliability * reliability.at(free_m));
+  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
+    if (ranges_m[i] != std::numeric_limits<float>::infinity()) continue;
+    free_class_[i] = free;
+    free_.length_m[i] = free_m;
+  }
+}
+
+/// Beams [begin, end) are taken from one pose.
+void ScanPainter::set_pose(std::size_t begin, std::size_t end, const Pose2& sensor) {
+  const double c = std::cos(sensor.theta), s = std::sin(sensor.theta);
+  const double x = (sensor.x - georeference_.origin_x_m) / georeference_.resolution_m;
+  const double y = (sensor.y - georeference_.origin_y_m) / georeference_.resolution_m;
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
+#pragma GCC ivdep
+        for (std::size_t i = begin; i < end; ++i) {
+          origin_x_[i] = x;
+          origin_y_[i] = y;
+          direction_x_[i] = c * sensor_x_[i] - s * sensor_y_[i];
+          direction_y_[i] = s * sensor_x_[i] + c * sensor_y_[i];
+        }
+      });
+}
+
+/// Origins and directions of the beams, each when it was taken.
+/// \return how far the sensor comes from where it is at `time` [m]
+double ScanPainter::place(const Pose2& T_map_base, const sensors::MotionPath& path, sensors::Timestamp time) {
   const auto sensor_at = [&](double seconds) {
     const Pose2 T_map_now = T_map_base * path.motion(time, time + sensors::from_seconds(seconds));
     return T_map_now * range_finder_.T_base_sensor;
   };
-  const auto set = [this](Beam& beam, const Pose2& sensor, double c, double s, const Eigen::Vector2d& direction) {
-    beam.origin = {(sensor.x - georeference_.origin_x_m) / georeference_.resolution_m,
-                   (sensor.y - georeference_.origin_y_m) / georeference_.resolution_m};
-    beam.direction = turned(direction, c, s);
-  };
+  const Pose2 here = T_map_base * range_finder_.T_base_sensor;
   const int count = range_finder_.count;
   if (path.empty() || range_finder_.scan_time_s == 0.0) {
-    const Pose2 sensor = T_map_base * range_finder_.T_base_sensor;
-    const double c = std::cos(sensor.theta), s = std::sin(sensor.theta);
-    for (int i = 0; i < count; ++i) set(beams_[i], sensor, c, s, directions_[i]);
-    return;
+    set_pose(0, static_cast<std::size_t>(count), here);
+    return 0.0;
   }
   int next = 0;
+  double moved_m = 0.0;
   Pose2 from = sensor_at(range_finder_.beam_time(0));
   for (int knot = 1; knot <= kPathKnots; ++knot) {
     const int begin = next, end = knot * count / kPathKnots;
@@ -137,129 +187,166 @@ void ScanPainter::place(const Pose2& T_map_base, const sensors::MotionPath& path
     const Pose2 to = sensor_at(range_finder_.beam_time(end));
     for (; next < end; ++next) {
       const Pose2 sensor = geometry::interpolate(from, to, static_cast<double>(next - begin) / (end - begin));
-      set(beams_[next], sensor, std::cos(sensor.theta), std::sin(sensor.theta), directions_[next]);
+      set_pose(next, next + 1, sensor);
+      moved_m = std::max(moved_m, (sensor.translation() - here.translation()).norm());
     }
     from = to;
   }
+  return moved_m;
 }
 
-/// Which neighbours hit one surface. Where it is met at a grazing angle, the occupied part is widened so that every
-/// cell that the surface passes through has its centre in it: about half a cell to either side of the surface.
+/// Which neighbours hit one surface.
 void ScanPainter::join() {
   const double min_sine = std::sin(params_.min_incidence_rad);
   const double resolution = georeference_.resolution_m;
-  double sine_before = 0.0;  // of the incidence on the surface shared with the beam before; 0: none shared
-  for (std::size_t i = 0; i < beams_.size(); ++i) {
-    Beam& beam = beams_[i];
-    double sine_after = 0.0, sine_of_next = 0.0;
-    if (i + 1 < beams_.size() && beam.hit_class >= 0 && beams_[i + 1].hit_class >= 0) {
-      const Beam& next = beams_[i + 1];
-      const Eigen::Vector2d along =
-          next.range_m * next.direction - beam.range_m * beam.direction + (next.origin - beam.origin) * resolution;
-      const double length = along.norm();
-      const double sine = std::abs(geometry::cross(beam.direction, along));
-      if (length > 0.0 && sine >= min_sine * length) {
-        sine_after = sine / length;
-        sine_of_next = std::max(min_sine, std::abs(geometry::cross(next.direction, along)) / length);
+  const std::size_t count = range_m_.size();
+  sine_before_.front() = sine_after_.back() = 0.0;
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
+#pragma GCC ivdep
+        for (std::size_t i = 0; i + 1 < count; ++i) {
+          const double along_x = range_m_[i + 1] * direction_x_[i + 1] - range_m_[i] * direction_x_[i] +
+                                 (origin_x_[i + 1] - origin_x_[i]) * resolution;
+          const double along_y = range_m_[i + 1] * direction_y_[i + 1] - range_m_[i] * direction_y_[i] +
+                                 (origin_y_[i + 1] - origin_y_[i]) * resolution;
+          const double length = std::sqrt(along_x * along_x + along_y * along_y);
+          const double across = std::abs(direction_x_[i] * along_y - direction_y_[i] * along_x);
+          const double across_next = std::abs(direction_x_[i + 1] * along_y - direction_y_[i + 1] * along_x);
+          const bool joined =
+              (hit_class_[i] >= 0) & (hit_class_[i + 1] >= 0) & (length > 0.0) & (across >= min_sine * length);
+          const double divisor = joined ? length : 1.0;
+          sine_after_[i] = joined ? across / divisor : 0.0;
+          sine_before_[i + 1] = joined ? std::max(min_sine, across_next / divisor) : 0.0;
+        }
+      });
+}
+
+/// Where a surface is met at a grazing angle, the occupied part is widened so that every cell that the surface passes
+/// through has its centre in it: about half a cell to either side of the surface.
+void ScanPainter::widen() {
+  const std::size_t count = range_m_.size();
+  const double across_m = kWallHalfCells * georeference_.resolution_m;
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
+#pragma GCC ivdep
+        for (std::size_t i = 0; i < count; ++i) {
+          const double before = sine_before_[i], after = sine_after_[i];
+          const double range_m = range_m_[i], free_m = free_.length_m[i], near_m = near_.length_m[i],
+                       far_m = far_.length_m[i];
+          const double sine = before > after ? before : after;  // of two surfaces, the one met more steeply
+          const bool widened = (sine > 0.0) & ((far_m - range_m) * sine < across_m);
+          const double half_m = across_m / (widened ? sine : 1.0);
+          const double wide_near_m = std::max(0.0, range_m - half_m), wide_far_m = range_m + half_m;
+          const double wide_free_m = std::min(free_m, wide_near_m);
+          far_.length_m[i] = widened ? wide_far_m : far_m;
+          near_.length_m[i] = widened ? wide_near_m : near_m;
+          free_.length_m[i] = widened ? wide_free_m : free_m;
+        }
+      });
+}
+
+void ScanPainter::measure(Outline& outline) const {
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
+#pragma GCC ivdep
+        for (std::size_t i = 0; i < outline.x.size(); ++i) {
+          const double length = outline.length_m[i] * cells_per_metre_;
+          outline.x[i] = origin_x_[i] + length * direction_x_[i];
+          outline.y[i] = origin_y_[i] + length * direction_y_[i];
+        }
+      });
+}
+
+/// Where an outline meets a side of a beam's sector. \param turn  1: the last side in the order of the beams, -1: the
+/// first
+ScanPainter::Point ScanPainter::side(std::size_t beam, const Outline& outline, double turn) const {
+  const double length = outline.length_m[beam] * cells_per_metre_;
+  const double c = half_sector_cos_, s = turn * half_sector_sin_;
+  return {origin_x_[beam] + length * (c * direction_x_[beam] - s * direction_y_[beam]),
+          origin_y_[beam] + length * (s * direction_x_[beam] + c * direction_y_[beam])};
+}
+
+/// Where an outline leaves a beam's sector: half-way to the next beam where both hit one surface.
+ScanPainter::Point ScanPainter::end(std::size_t beam, const Outline& outline) const {
+  if (sine_after_[beam] > 0.0)
+    return {0.5 * (outline.x[beam] + outline.x[beam + 1]), 0.5 * (outline.y[beam] + outline.y[beam + 1])};
+  return side(beam, outline, 1.0);
+}
+
+/// Where it enters it.
+ScanPainter::Point ScanPainter::start(std::size_t beam, const Outline& outline) const {
+  return sine_before_[beam] > 0.0 ? end(beam - 1, outline) : side(beam, outline, -1.0);
+}
+
+/// Whether the occupied part of beams begins where their free part ends: one outline will do then.
+bool ScanPainter::near_is_end_of_free(std::size_t first, std::size_t last) const {
+  const std::size_t begin = first - (sine_before_[first] > 0.0 ? 1 : 0);  // the neighbours that it is joined with too
+  const std::size_t end = last + (sine_after_[last] > 0.0 ? 2 : 1);
+  return std::equal(near_.length_m.begin() + begin, near_.length_m.begin() + end, free_.length_m.begin() + begin);
+}
+
+/// Whether the free parts of a beam and of the next make one region.
+bool ScanPainter::free_goes_on(std::size_t beam) const {
+  return beam + 1 < free_class_.size() && free_class_[beam] == free_class_[beam + 1] &&
+         (touching_ || sine_after_[beam] > 0.0);
+}
+
+void ScanPainter::add_outline(const Outline& outline, std::size_t first, std::size_t last, RegionFiller::Sides sides) {
+  filler_.add_corner(start(first, outline));
+  filler_.add_corners(std::span(outline.x).subspan(first, last - first + 1),
+                      std::span(outline.y).subspan(first, last - first + 1));
+  filler_.add_corner(end(last, outline));
+  filler_.end_chain(sides);
+}
+
+/// What is free and what is occupied, surface by surface: the beams that hit one, or a single one.
+void ScanPainter::add_contours() {
+  Point free_from;  // where the free region at hand begins
+  for (std::size_t first = 0, last = 0; first < range_m_.size(); first = last + 1) {
+    const int free = free_class_[first], hit = hit_class_[first];
+    last = first;
+    while (sine_after_[last] > 0.0 && free_class_[last + 1] == free && hit_class_[last + 1] == hit) ++last;
+    const bool one_outline = free >= 0 && hit >= 0 && near_is_end_of_free(first, last);
+    if (free >= 0) {
+      const bool goes_on = first > 0 && free_goes_on(first - 1);
+      if (!goes_on) free_from = origin(first);
+      filler_.add_edge(goes_on ? end(first - 1, free_) : free_from, start(first, free_), {.left = free});
+      add_outline(free_, first, last, {.left = free, .right = one_outline ? hit : RegionFiller::kOutside});
+      if (!free_goes_on(last)) {
+        filler_.add_edge(end(last, free_), origin(last), {.left = free});
+        filler_.add_edge(origin(last), free_from, {.left = free});
       }
     }
-    beam.joined = sine_after > 0.0;
-    const double sine = std::max(sine_before, sine_after);  // of two surfaces, the one met more steeply
-    const double across_m = kWallHalfCells * resolution;
-    if (sine > 0.0 && (beam.far_m - beam.range_m) * sine < across_m) {
-      beam.far_m = beam.range_m + across_m / sine;
-      beam.near_m = std::max(0.0, beam.range_m - across_m / sine);
-      beam.free_m = std::min(beam.free_m, beam.near_m);
+    if (hit >= 0) {
+      if (!one_outline) add_outline(near_, first, last, {.right = hit});
+      add_outline(far_, first, last, {.left = hit});
+      filler_.add_edge(end(last, far_), end(last, near_), {.left = hit});
+      filler_.add_edge(start(first, near_), start(first, far_), {.left = hit});
     }
-    sine_before = sine_of_next;
-  }
-}
-
-/// Where a beam meets an outline, in cells.
-Eigen::Vector2d ScanPainter::tip(std::size_t beam, Outline outline) const {
-  const Beam& b = beams_[beam];
-  return b.origin + b.*outline * cells_per_metre_ * b.direction;
-}
-
-/// Where an outline enters a beam's sector: half-way from the beam before where both hit one surface.
-Eigen::Vector2d ScanPainter::start(std::size_t beam, Outline outline) const {
-  if (beam > 0 && beams_[beam - 1].joined) return 0.5 * (tip(beam - 1, outline) + tip(beam, outline));
-  const Beam& b = beams_[beam];
-  return b.origin + b.*outline * cells_per_metre_ * turned(b.direction, half_sector_.x(), -half_sector_.y());
-}
-
-/// Where it leaves it.
-Eigen::Vector2d ScanPainter::end(std::size_t beam, Outline outline) const {
-  if (beams_[beam].joined) return 0.5 * (tip(beam, outline) + tip(beam + 1, outline));
-  const Beam& b = beams_[beam];
-  return b.origin + b.*outline * cells_per_metre_ * turned(b.direction, half_sector_.x(), half_sector_.y());
-}
-
-/// Sectors of one class that touch make one contour.
-void ScanPainter::add_free_contours() {
-  for (std::size_t first = 0, last = 0; first < beams_.size(); first = last + 1) {
-    last = first;
-    const int free_class = beams_[first].free_class;
-    if (free_class < 0) continue;
-    corners_ = {beams_[first].origin, start(first, &Beam::free_m), tip(first, &Beam::free_m)};
-    for (; last + 1 < beams_.size() && beams_[last + 1].free_class == free_class; ++last) {
-      if (!beams_[last].joined) {
-        if (!touching_) break;
-        corners_.push_back(end(last, &Beam::free_m));
-        corners_.push_back(start(last + 1, &Beam::free_m));
-      }
-      corners_.push_back(tip(last + 1, &Beam::free_m));
-    }
-    corners_.push_back(end(last, &Beam::free_m));
-    corners_.push_back(beams_[last].origin);
-    filler_.add_contour(corners_, free_class);
-  }
-}
-
-/// What hits one surface makes one contour: along its far side, and back along its near one.
-void ScanPainter::add_hit_contours() {
-  for (std::size_t first = 0, last = 0; first < beams_.size(); first = last + 1) {
-    last = first;
-    const int hit_class = beams_[first].hit_class;
-    if (hit_class < 0) continue;
-    while (beams_[last].joined && beams_[last + 1].hit_class == hit_class) ++last;
-    corners_ = {start(first, &Beam::far_m)};
-    for (std::size_t i = first; i <= last; ++i) corners_.push_back(tip(i, &Beam::far_m));
-    corners_.push_back(end(last, &Beam::far_m));
-    corners_.push_back(end(last, &Beam::near_m));
-    for (std::size_t i = last + 1; i > first; --i) corners_.push_back(tip(i - 1, &Beam::near_m));
-    corners_.push_back(start(first, &Beam::near_m));
-    filler_.add_contour(corners_, hit_class);
   }
 }
 
 ScanPainter::Counts ScanPainter::paint(grids::EvidentialGrid& grid, const Pose2& T_map_base,
                                        const PoseReliability& reliability, std::span<const float> ranges_m,
                                        const sensors::MotionPath& path, sensors::Timestamp time) {
-  if (ranges_m.size() != beams_.size())
+  if (ranges_m.size() != range_m_.size())
     throw std::invalid_argument("a scan has " + std::to_string(ranges_m.size()) + " ranges, its range finder " +
-                                std::to_string(beams_.size()) + " beams");
+                                std::to_string(range_m_.size()) + " beams");
   const Counts counts = classify(ranges_m, reliability);
-  place(T_map_base, path, time);
+  const double moved_m = place(T_map_base, path, time);
+  if (!(moved_m <= std::max(range_finder_.range_max_m, 1.0)))
+    throw std::out_of_range("the motion given with a scan carries the sensor " + std::to_string(moved_m) +
+                            " m away within the scan: leave the motion out or correct it");
   join();
+  widen();
+  const double reach_m = std::max(greatest(free_.length_m), greatest(far_.length_m)) + moved_m;
   const Eigen::Vector2d here = T_map_base * range_finder_.T_base_sensor.translation();
-  const Eigen::Vector2d origin(georeference_.origin_x_m, georeference_.origin_y_m);
-  const double most_m = std::max(range_finder_.range_max_m, 1.0);
-  double reach = 0.0, moved = 0.0;  // of the longest beam [m]; how far the sensor comes within the scan [m^2]
-  for (const Beam& beam : beams_) {
-    const double square = (beam.origin * georeference_.resolution_m + origin - here).squaredNorm();
-    if (!(square <= most_m * most_m))
-      throw std::out_of_range("the motion given with a scan carries the sensor " + std::to_string(std::sqrt(square)) +
-                              " m away within the scan: leave the motion out or correct it");
-    moved = std::max(moved, square);
-    reach = std::max(reach, std::max(beam.free_m, beam.far_m));
-  }
-  reach += std::sqrt(moved) + 2.0 * georeference_.resolution_m;
-  static_cast<void>(georeference_.cell_at(here - Eigen::Vector2d(reach, reach)));
-  static_cast<void>(georeference_.cell_at(here + Eigen::Vector2d(reach, reach)));
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach_m + 2.0 * georeference_.resolution_m);
+  static_cast<void>(georeference_.cell_at(here - margin));
+  static_cast<void>(georeference_.cell_at(here + margin));
+  for (Outline* outline : {&free_, &near_, &far_}) measure(*outline);
   filler_.clear();
-  add_free_contours();
-  add_hit_contours();
+  add_contours();
   filler_.fill(grid, increments_);
   return counts;
 }

@@ -69,35 +69,46 @@ class ScanPainter {
                std::span<const float> ranges_m, const sensors::MotionPath& path, sensors::Timestamp time);
 
  private:
-  struct Beam {
-    Eigen::Vector2d origin, direction;  ///< in cells; a unit vector
-    double range_m = 0.0, free_m = 0.0, near_m = 0.0, far_m = 0.0;
-    int free_class = -1, hit_class = -1;  ///< -1: none
-    bool joined = false;                  ///< with the next beam: both hit one surface
+  /// A line over the ends of the beams: of their free part, or the near or the far side of the occupied one.
+  struct Outline {
+    std::vector<double> length_m;  ///< of each beam up to it
+    std::vector<double> x, y;      ///< where the beams meet it, in cells
   };
-  /// An outline over the beams: the end of its free part, or the near or the far side of the occupied one.
-  using Outline = double Beam::*;
+  using Point = RegionFiller::Corner;
 
   Counts classify(std::span<const float> ranges_m, const PoseReliability& reliability);
-  void place(const geometry::Pose2& T_map_base, const sensors::MotionPath& path, sensors::Timestamp time);
+  void classify_no_returns(std::span<const float> ranges_m, const PoseReliability& reliability);
+  double place(const geometry::Pose2& T_map_base, const sensors::MotionPath& path, sensors::Timestamp time);
+  void set_pose(std::size_t begin, std::size_t end, const geometry::Pose2& sensor);
   void join();
-  [[nodiscard]] Eigen::Vector2d tip(std::size_t beam, Outline outline) const;
-  [[nodiscard]] Eigen::Vector2d start(std::size_t beam, Outline outline) const;
-  [[nodiscard]] Eigen::Vector2d end(std::size_t beam, Outline outline) const;
-  void add_free_contours();
-  void add_hit_contours();
+  void widen();
+  void measure(Outline& outline) const;
+  [[nodiscard]] Point origin(std::size_t beam) const { return {origin_x_[beam], origin_y_[beam]}; }
+  [[nodiscard]] Point side(std::size_t beam, const Outline& outline, double turn) const;
+  [[nodiscard]] Point start(std::size_t beam, const Outline& outline) const;
+  [[nodiscard]] Point end(std::size_t beam, const Outline& outline) const;
+  [[nodiscard]] bool near_is_end_of_free(std::size_t first, std::size_t last) const;
+  [[nodiscard]] bool free_goes_on(std::size_t beam) const;
+  void add_outline(const Outline& outline, std::size_t first, std::size_t last, RegionFiller::Sides sides);
+  void add_contours();
 
   sensors::RangeFinder range_finder_;
   grids::Georeference georeference_;
   LaserTables tables_;
   ScanParams params_;
   double cells_per_metre_ = 0.0;
-  Eigen::Vector2d half_sector_;              ///< cosine and sine of half the angle between beams, at most
-  bool touching_ = false;                    ///< sectors reach half-way to their neighbours
-  std::vector<Eigen::Vector2d> directions_;  ///< of the beams, in the sensor frame
+  double half_sector_cos_ = 1.0, half_sector_sin_ = 0.0;  ///< of half the angle between beams, at most
+  bool touching_ = false;                                 ///< sectors reach half-way to their neighbours
+  std::vector<double> sensor_x_, sensor_y_;               ///< directions of the beams in the sensor frame
   std::array<evidence::FixedLogCommonality, RegionFiller::kClasses> increments_;
-  std::vector<Beam> beams_;
-  std::vector<Eigen::Vector2d> corners_;  ///< of the contour at hand
+
+  // The beams of the scan at hand, an array for each of their properties: most is worked out for many at a time.
+  std::vector<double> origin_x_, origin_y_;        ///< in cells
+  std::vector<double> direction_x_, direction_y_;  ///< unit vectors
+  std::vector<double> range_m_;                    ///< 0 without an echo
+  Outline free_, near_, far_;
+  std::vector<int> free_class_, hit_class_;       ///< -1: none
+  std::vector<double> sine_before_, sine_after_;  ///< of the incidence on the surface shared with a neighbour; 0: none
   RegionFiller filler_;
 };
 

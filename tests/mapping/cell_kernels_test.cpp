@@ -55,6 +55,9 @@ TEST(CellKernels, StretchesGetTheirIncrementsAndNoOtherCellChanges) {
   }
   stretches.push_back({Tile::kCells - 1, 1, 1});  // the last cell, and the whole last row
   stretches.push_back({Tile::kCells - Tile::kSide, Tile::kSide, 0});
+  stretches.push_back({3 * Tile::kSide, 5 * Tile::kSide, 1});  // several rows, whole and not, and all of them
+  stretches.push_back({Tile::kSide + 5, 3 * Tile::kSide + 1, 0});
+  stretches.push_back({0, Tile::kCells, 1});
   const auto before = random_tile(random);
   Tile expected = *before, baseline = *before, best = *before;
   for (const Stretch& s : stretches)

@@ -77,6 +77,38 @@ TEST(RegionFiller, ContoursThatShareAnEdgeLeaveNoCellBetweenThemAndFillNoneTwice
   EXPECT_EQ(apart, together);
 }
 
+TEST(RegionFiller, AChainBetweenTwoRegionsBoundsBoth) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> aside(-6.0, 6.0);
+  const Contour around{{-70.2, -5.1}, {90.3, -5.1}, {90.3, 81.4}, {-70.2, 81.4}};  // of both regions
+  const std::vector<FixedLogCommonality> increments = increments_by_class();
+  RegionFiller filler;
+  for (int round = 0; round < 20; ++round) {
+    Contour border;  // from the lower edge to the upper one, forth and back
+    for (int k = 0; k <= 40; ++k) {
+      const double y = k == 0 ? around[0].y() : k == 40 ? around[2].y() : 38.0 + 2.0 * (k - 20) + aside(random);
+      border.emplace_back(10.0 + aside(random), y);
+    }
+    Contour left = border, right = border;
+    left.insert(left.end(), {around[3], around[0]});
+    right.insert(right.end(), {around[2], around[1]});
+    grids::EvidentialGrid apart, shared;
+    filler.add_contour(left, 3);
+    filler.add_contour(right, 40);
+    filler.fill(apart, increments);
+
+    const auto add_chain = [&](const Contour& corners, RegionFiller::Sides sides) {
+      for (const Eigen::Vector2d& corner : corners) filler.add_corner({corner.x(), corner.y()});
+      filler.end_chain(sides);
+    };
+    add_chain(border, {.left = 3, .right = 40});
+    add_chain({border.back(), around[3], around[0], border.front()}, {.left = 3});
+    add_chain({border.back(), around[2], around[1], border.front()}, {.right = 40});
+    filler.fill(shared, increments);
+    ASSERT_EQ(apart, shared) << "round " << round;
+  }
+}
+
 TEST(RegionFiller, ForgetsItsContours) {
   RegionFiller filler;
   const Contour square{{0.0, 0.0}, {9.0, 0.0}, {9.0, 9.0}, {0.0, 9.0}};

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include "grids/readout.hpp"
+#include "mapping/evidence_levels.hpp"
 #include "tests/mapping/readings.hpp"
 
 namespace credo::mapping {
@@ -88,6 +91,31 @@ TEST(MapperLaser, EveryCellGetsTheEvidenceOfItsBeamOnce) {
   EXPECT_GT(painted, 5'000);
   EXPECT_EQ(mapper.counts().missing,
             std::count_if(scan.ranges_m.begin(), scan.ranges_m.end(), [](float r) { return std::isnan(r); }));
+}
+
+TEST(MapperLaser, EveryCellIsUpdatedOnceWhereTrustChangesAlongASurface) {
+  const sensors::RangeFinder finder = panoramic();
+  Mapper mapper(rig_with(finder));
+  const Pose2 pose{1.1, 0.9, 0.4};
+  sensors::RangeScan scan = scan_of_room(finder, pose, 6.0, 3.0);
+  for (int i = 0; i < finder.count; ++i)
+    if (i % 29 == 5) scan.ranges_m[i] = i % 2 == 0 ? kNan : kInf;
+  mapper.insert(with_sigma(pose, 0.0, 0.01), scan);  // trust falls with the range
+
+  const Li2006Laser laser;
+  std::vector<FixedLogCommonality> single;  // what one beam may add
+  for (const auto& mass : {laser.free_mass(), laser.hit_mass()})
+    for (const FixedLogCommonality& increment : increments(mass, laser.reliability())) single.push_back(increment);
+  std::vector<FixedLogCommonality> seen;
+  const grids::CellBox box = mapper.grid().bounding_box();
+  for (int y = box.min.y; y < box.min.y + box.height; ++y)
+    for (int x = box.min.x; x < box.min.x + box.width; ++x) {
+      const FixedLogCommonality cell = mapper.grid().at({x, y});
+      ASSERT_TRUE(std::ranges::find(single, cell) != single.end()) << x << ' ' << y;
+      if (std::ranges::find(seen, cell) == seen.end()) seen.push_back(cell);
+    }
+  EXPECT_GT(seen.size(), 20U);  // trust takes many levels
+  EXPECT_GT(cells_in(mapper.grid()), 6000);
 }
 
 TEST(MapperLaser, BeamsThatTurnTheOtherWayGiveTheSameMap) {
