@@ -23,7 +23,7 @@ struct FreshnessParams {
 ///
 ///     g(n) = n / (1 + (n - 1) correlation)
 ///
-/// independent ones (the design effect of Kish 1965, sec. 8.2), and the next one adds g(n + 1) - g(n). n is what has
+/// independent ones (the design effect of Kish 1965), and the next one adds g(n + 1) - g(n). n is what has
 /// been read from here: it fades by exp(-way / way_m - turn / turn_rad) from each reading of a sensor to its next.
 /// A pure function of the poses of each sensor's readings in the order of their times.
 class Freshness {

@@ -34,7 +34,7 @@ std::vector<double> new_shares(const sensors::MotionPath& T_map_base, std::span<
   std::stable_sort(by_time.begin(), by_time.end(),
                    [&](std::size_t a, std::size_t b) { return readings[a].time < readings[b].time; });
   std::vector<double> shares(readings.size(), 1.0);
-  Freshness freshness(params.freshness);
+  Freshness freshness(params.mapper.freshness);
   for (const std::size_t i : by_time)
     if (covers(T_map_base, readings[i].time, params.max_gap_s))
       shares[i] = freshness.of_next(readings[i], T_map_base.pose_at(readings[i].time));

@@ -58,7 +58,7 @@ struct Mapper::State {
   MappingCounts map(const Believed<PoseEstimate>& T_map_base, double farthest_m, const Paint& paint) {
     require_usable(T_map_base.value);
     const auto poses = poses_for_blur(T_map_base, farthest_m, params.georeference.resolution_m, params.blur);
-    if (poses.size() == 1) return paint(grid, T_map_base);
+    if (poses.empty()) return paint(grid, T_map_base);
     EvidenceMean mean;
     MappingCounts seen;
     for (const Believed<PoseEstimate>& pose : poses) {

@@ -30,6 +30,7 @@ struct MapperParams {
   PoseReliabilityParams pose;
   PoseBlurParams blur;
   SensorReliabilityParams sensors;
+  FreshnessParams freshness;  ///< for who maps a whole drive, in the order of time: a Mapper is told the shares
 };
 
 /// Ranges from believed poses -> evidential grid (Li X. 2007, sec. 5; Li X. 2006, sec. 4). Only the cells of the fan or
@@ -69,7 +70,6 @@ class Mapper {
 
 struct TrajectoryMappingParams {
   MapperParams mapper;
-  FreshnessParams freshness;
   double max_gap_s = 0.5;  ///< a reading further than this from the nearest pose is left out
   /// Covariance and belief of all poses of the trajectory: taken as true unless said otherwise.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

@@ -90,7 +90,7 @@ std::vector<Believed<PoseEstimate>> poses_for_blur(const Believed<PoseEstimate>&
   const double variance_m2 =
       geometry::largest_variance(covariance.topLeftCorner<2, 2>()) + covariance(2, 2) * farthest_m * farthest_m;
   const double spread_cells = std::sqrt(variance_m2) / resolution_m;
-  if (!(spread_cells > params.from_cells)) return {T_map_base};
+  if (!(spread_cells > params.from_cells)) return {};
 
   const double blurring_cells = std::min(spread_cells, params.most_cells);
   const double share = (blurring_cells / spread_cells) * (blurring_cells / spread_cells);

@@ -24,7 +24,7 @@ struct PoseBlurParams {
 /// Poses, all as probable, that stand for an unsure one: their mean is its pose, and their covariance that part of its
 /// covariance that evidence is blurred by. Each carries the rest of the covariance, and the belief. They lie evenly
 /// along any direction, about a cell apart at the farthest reading, in pairs to either side.
-/// \returns the pose itself alone where the spread is below `from_cells`
+/// \returns none where the spread is at most `from_cells`: the pose itself does
 /// \param farthest_m  distance of the farthest reading, where the heading counts most
 /// \throws std::invalid_argument if a parameter is out of range
 [[nodiscard]] std::vector<evidence::Believed<geometry::PoseEstimate>> poses_for_blur(

@@ -73,7 +73,7 @@ TEST(FreshnessOfAMap, HoldsWhatARobotThatStandsStillCanBeSureOf) {
     std::vector<sensors::SonarSweep> sweeps;
     for (int k = 0; k < readings; ++k) sweeps.push_back({sensors::Timestamp{k}, 0, {1.0F}});
     TrajectoryMappingParams params;
-    params.freshness.correlation = correlation;
+    params.mapper.freshness.correlation = correlation;
     return weight(map_along(still, rig_with(one_sonar()), {}, sweeps, params).grid.at({10, 0}));
   };
   EXPECT_NEAR(evidence_after(100, 0.0), 100.0 * evidence_after(1, 0.0), 1e-3);

@@ -88,7 +88,7 @@ TEST(ManyRobots, MakeOneMapToTheBitHoweverTheirReadingsAreDealtOut) {
   grids::EvidentialGrid expected;
   for (std::size_t number = 0; number < kRobots; ++number) {
     robots.push_back(robot(number));
-    robots.back().params.freshness.correlation = 0.0;
+    robots.back().params.mapper.freshness.correlation = 0.0;
     expected.merge(map_of(robots.back()));
     for (std::size_t k = 0; k < robots.back().scans.size(); ++k) readings.emplace_back(number, k);
   }
