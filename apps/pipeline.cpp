@@ -11,10 +11,14 @@
 namespace credo::apps {
 namespace {
 
-void insert_ranges(mapping::Mapper& mapper, const localization::Localizer& localizer,
+void insert_ranges(mapping::Mapper& mapper, mapping::Freshness& freshness, const localization::Localizer& localizer,
                    const sensors::Acquisition& acquisition) {
-  for (const auto& sweep : acquisition.sonar) mapper.insert(localizer.pose_at(sweep.time), sweep, acquisition.path);
-  for (const auto& scan : acquisition.scans) mapper.insert(localizer.pose_at(scan.time), scan, acquisition.path);
+  const auto insert = [&](const auto& reading) {
+    const auto pose = localizer.pose_at(reading.time);
+    mapper.insert(pose, reading, acquisition.path, freshness.of_next(reading, pose.value.pose));
+  };
+  for (const auto& sweep : acquisition.sonar) insert(sweep);
+  for (const auto& scan : acquisition.scans) insert(scan);
 }
 
 }  // namespace
@@ -34,6 +38,7 @@ Outcome run(const datasets::Dataset& dataset, const PipelineParams& params,
   localization::Localizer localizer(header.floor_plan.value_or(geometry::FloorPlan{}), header.rig, header.initial_pose,
                                     params.localizer);
   mapping::Mapper mapper(header.rig, params.mapper);
+  mapping::Freshness freshness(params.mapper.freshness);
   PosesByHand by_hand(dataset, acquisitions.times(), params.poses_by_hand);
   Outcome outcome;
   double busy = 0.0;
@@ -45,7 +50,7 @@ Outcome run(const datasets::Dataset& dataset, const PipelineParams& params,
     const perception::Scene& scene = observer.observe(acquisition);
     const localization::Localization fix = localizer.update(scene, acquisition.motion);
     busy += watch.seconds();
-    insert_ranges(mapper, localizer, acquisition);
+    insert_ranges(mapper, freshness, localizer, acquisition);
     outcome.conflict.add(scene);
     outcome.without_image += header.rig.camera && !scene.camera_seen ? 1 : 0;
     outcome.without_scan += !header.rig.range_finders.empty() && !scene.range_finder_seen ? 1 : 0;
@@ -64,7 +69,7 @@ Outcome run(const datasets::Dataset& dataset, const PipelineParams& params,
   if (acquisitions.size() > 0) {
     sensors::Acquisition rest = acquisitions.trailing();
     localizer.with_path(rest);
-    insert_ranges(mapper, localizer, rest);
+    insert_ranges(mapper, freshness, localizer, rest);
     outcome.seconds_per_acquisition = busy / static_cast<double>(acquisitions.size());
   }
   outcome.calibration = localizer.calibration();

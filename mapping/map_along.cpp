@@ -5,7 +5,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
+#include <vector>
 
 #include "mapping/mapper.hpp"
 
@@ -21,6 +23,22 @@ void insert_in_batches(std::size_t count, const Insert& insert, const Done& done
     tbb::parallel_for(begin, end, insert);
     done(end);
   }
+}
+
+/// How much of each reading is new, in the order that they are given in; 1 of what has no pose.
+template <typename Reading>
+std::vector<double> new_shares(const sensors::MotionPath& T_map_base, std::span<const Reading> readings,
+                               const TrajectoryMappingParams& params) {
+  std::vector<std::size_t> by_time(readings.size());
+  std::iota(by_time.begin(), by_time.end(), std::size_t{0});
+  std::stable_sort(by_time.begin(), by_time.end(),
+                   [&](std::size_t a, std::size_t b) { return readings[a].time < readings[b].time; });
+  std::vector<double> shares(readings.size(), 1.0);
+  Freshness freshness(params.mapper.freshness);
+  for (const std::size_t i : by_time)
+    if (covers(T_map_base, readings[i].time, params.max_gap_s))
+      shares[i] = freshness.of_next(readings[i], T_map_base.pose_at(readings[i].time));
+  return shares;
 }
 
 /// What one thread has mapped so far.
@@ -48,23 +66,27 @@ TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Ri
                         std::span<const sensors::RangeScan> scans, std::span<const sensors::SonarSweep> sweeps,
                         const TrajectoryMappingParams& params, const std::function<void(double share)>& progress) {
   if (T_map_base.empty()) throw std::invalid_argument("the trajectory has no pose: nothing can be mapped along it");
+  const std::vector<double> new_of_scans = new_shares(T_map_base, scans, params);
+  const std::vector<double> new_of_sweeps = new_shares(T_map_base, sweeps, params);
   // Sums of evidence do not depend on their order, so every thread maps what it gets into a grid of its own.
   tbb::enumerable_thread_specific<Worker> workers([&] { return Worker{Mapper(rig, params.mapper), 0}; });
-  const auto insert = [&](const auto& reading) {
+  const auto insert = [&](const auto& reading, double share) {
     Worker& worker = workers.local();
     if (!covers(T_map_base, reading.time, params.max_gap_s)) {
       ++worker.without_pose;
       return;
     }
-    worker.mapper.insert({{T_map_base.pose_at(reading.time), params.covariance}, params.belief}, reading, T_map_base);
+    worker.mapper.insert({{T_map_base.pose_at(reading.time), params.covariance}, params.belief}, reading, T_map_base,
+                         share);
   };
   const auto report = [&](std::size_t done) {
     if (progress) progress(static_cast<double>(done) / static_cast<double>(scans.size() + sweeps.size()));
   };
   insert_in_batches(
-      scans.size(), [&](std::size_t i) { insert(scans[i]); }, report);
+      scans.size(), [&](std::size_t i) { insert(scans[i], new_of_scans[i]); }, report);
   insert_in_batches(
-      sweeps.size(), [&](std::size_t i) { insert(sweeps[i]); }, [&](std::size_t done) { report(scans.size() + done); });
+      sweeps.size(), [&](std::size_t i) { insert(sweeps[i], new_of_sweeps[i]); },
+      [&](std::size_t done) { report(scans.size() + done); });
 
   TrajectoryMap map{Mapper(rig, params.mapper).take_grid(), {}, 0};
   for (Worker& worker : workers) {

@@ -68,13 +68,15 @@ RuleMap fold_along(const sensors::MotionPath& T_map_base, const sensors::Rig& ri
   const double all = static_cast<double>(scans.size() + sweeps.size());
   std::int64_t without_pose = 0;
   std::size_t done = 0;
+  Freshness freshness(params.mapper.freshness);
   in_order(scans, sweeps, [&](const auto& reading) {
     if (progress && ++done % kReportEvery == 0) progress(static_cast<double>(done) / all);
     if (!covers(T_map_base, reading.time, params.max_gap_s)) {
       ++without_pose;
       return;
     }
-    mapper.insert({{T_map_base.pose_at(reading.time), params.covariance}, params.belief}, reading, T_map_base);
+    const geometry::Pose2 pose = T_map_base.pose_at(reading.time);
+    mapper.insert({{pose, params.covariance}, params.belief}, reading, T_map_base, freshness.of_next(reading, pose));
   });
   return {mapper.masses(), mapper.counts(), without_pose, mapper.abandoned()};
 }

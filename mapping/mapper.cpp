@@ -3,7 +3,9 @@
 
 #include "mapping/mapper.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,6 +19,7 @@ namespace {
 
 using evidence::Believed;
 using geometry::PoseEstimate;
+using grids::EvidentialGrid;
 
 void check(const sensors::SonarRing& ring) {
   if (!ring.firing_times_s.empty() && ring.firing_times_s.size() != ring.T_base_transducer.size())
@@ -24,20 +27,59 @@ void check(const sensors::SonarRing& ring) {
                                 std::to_string(ring.T_base_transducer.size()) + " transducers");
 }
 
+void check_share(double share) {
+  if (!(share > 0.0 && share <= 1.0))
+    throw std::invalid_argument("the share of a reading that is new must be in (0, 1], not " + std::to_string(share));
+}
+
+/// Of the ranges that can be mapped; 0 where there is none. [m]
+double farthest(std::span<const float> ranges_m, double range_max_m) {
+  double result = 0.0;
+  for (const float range_m : ranges_m)
+    if (range_m <= range_max_m) result = std::max(result, static_cast<double>(range_m));
+  return result;
+}
+
 }  // namespace
 
 struct Mapper::State {
   sensors::Rig rig;
   MapperParams params;
-  grids::EvidentialGrid grid;
+  SensorReliability reliability;
+  EvidentialGrid grid;
   std::vector<FanPainter> fans;       // one for each sonar ring
   std::vector<ScanPainter> scans;     // one for each range finder
   std::vector<PlacedReading> placed;  // of the sweep at hand
   MappingCounts counts;
+
+  /// Maps a reading whose evidence paint(grid, pose) adds: straight into the map, or blurred over the poses that may
+  /// be. \returns what paint does, which is the same from all of them
+  template <typename Paint>
+  MappingCounts map(const Believed<PoseEstimate>& T_map_base, double farthest_m, const Paint& paint) {
+    require_usable(T_map_base.value);
+    const auto poses = poses_for_blur(T_map_base, farthest_m, params.georeference.resolution_m, params.blur);
+    if (poses.empty()) return paint(grid, T_map_base);
+    EvidenceMean mean;
+    MappingCounts seen;
+    for (const Believed<PoseEstimate>& pose : poses) {
+      EvidentialGrid from_here(params.georeference);
+      seen = paint(from_here, pose);
+      mean.add(from_here);
+    }
+    mean.combine_into(grid);
+    return seen;
+  }
 };
 
 Mapper::Mapper(const sensors::Rig& rig, const MapperParams& params)
-    : state_(std::make_unique<State>(State{rig, params, grids::EvidentialGrid(params.georeference), {}, {}, {}, {}})) {
+    : state_(std::make_unique<State>(State{.rig = rig,
+                                           .params = params,
+                                           .reliability = SensorReliability(rig, params.sensors),
+                                           .grid = EvidentialGrid(params.georeference),
+                                           .fans = {},
+                                           .scans = {},
+                                           .placed = {},
+                                           .counts = {}})) {
   for (const sensors::SonarRing& ring : rig.sonar_rings) {
     check(ring);
     state_->fans.emplace_back(sonar_model(ring, params.sonar), ring, params.georeference);
@@ -52,40 +94,53 @@ Mapper::Mapper(Mapper&&) noexcept = default;
 Mapper& Mapper::operator=(Mapper&&) noexcept = default;
 
 void Mapper::insert(const Believed<PoseEstimate>& T_map_base, const sensors::SonarSweep& sweep,
-                    const sensors::MotionPath& path) {
+                    const sensors::MotionPath& path, double share) {
   State& s = *state_;
-  place_sweep(s.rig, s.params.georeference, s.params.pose, T_map_base, sweep, path, s.counts, s.placed);
-  for (const PlacedReading& reading : s.placed)
-    s.fans[static_cast<std::size_t>(sweep.sensor)].paint(s.grid, reading.T_map_transducer, reading.range_m,
-                                                         reading.reliability);
+  check_share(share);
+  const auto& rings = s.rig.sonar_rings;
+  const auto ring = static_cast<std::size_t>(sweep.sensor);
+  const bool there = sweep.sensor >= 0 && ring < rings.size();
+  require_sensor(rings.size(), sweep.sensor, sweep.ranges_m.size(), there ? rings[ring].T_base_transducer.size() : 0,
+                 "sonar ring");
+  const auto paint = [&](EvidentialGrid& grid, const Believed<PoseEstimate>& pose) {
+    MappingCounts counts;
+    place_sweep(s.rig, s.params.georeference, s.params.pose, pose, sweep, path, counts, s.placed,
+                s.reliability.of_ring(ring), share);
+    for (const PlacedReading& reading : s.placed)
+      s.fans[ring].paint(grid, reading.T_map_transducer, reading.range_m, reading.reliability);
+    return counts;
+  };
+  s.counts += s.map(T_map_base, farthest(sweep.ranges_m, rings[ring].range_max_m), paint);
 }
 
 void Mapper::insert(const Believed<PoseEstimate>& T_map_base, const sensors::RangeScan& scan,
-                    const sensors::MotionPath& path) {
+                    const sensors::MotionPath& path, double share) {
   State& s = *state_;
+  check_share(share);
   const auto& finders = s.rig.range_finders;
-  const bool there = scan.sensor >= 0 && static_cast<std::size_t>(scan.sensor) < finders.size();
+  const auto finder = static_cast<std::size_t>(scan.sensor);
+  const bool there = scan.sensor >= 0 && finder < finders.size();
   require_sensor(finders.size(), scan.sensor, scan.ranges_m.size(),
-                 there ? static_cast<std::size_t>(finders[scan.sensor].count) : 0, "range finder");
-  const PoseReliability reliability(T_map_base, s.params.georeference.resolution_m, s.params.pose);
-  if (reliability.maps_nothing()) {
-    ++s.counts.scans;
-    ++s.counts.refused;
-    return;
-  }
-  const ScanPainter::Counts counts =
-      s.scans[scan.sensor].paint(s.grid, T_map_base.value.pose, reliability, scan.ranges_m, path, scan.time);
-  ++s.counts.scans;
-  s.counts.echoes += counts.echoes;
-  s.counts.no_returns += counts.no_returns;
-  s.counts.missing += counts.missing;
-  s.counts.out_of_range += counts.out_of_range;
+                 there ? static_cast<std::size_t>(finders[finder].count) : 0, "range finder");
+  const double trust = share * s.reliability.of_finder(finder);
+  const auto paint = [&](EvidentialGrid& grid, const Believed<PoseEstimate>& pose) {
+    const PoseReliability reliability(pose, s.params.georeference.resolution_m, s.params.pose, trust);
+    if (reliability.maps_nothing()) return MappingCounts{.scans = 1, .refused = 1};
+    const ScanPainter::Counts seen =
+        s.scans[finder].paint(grid, pose.value.pose, reliability, scan.ranges_m, path, scan.time);
+    return MappingCounts{.scans = 1,
+                         .echoes = seen.echoes,
+                         .no_returns = seen.no_returns,
+                         .missing = seen.missing,
+                         .out_of_range = seen.out_of_range};
+  };
+  s.counts += s.map(T_map_base, farthest(scan.ranges_m, finders[finder].range_max_m), paint);
 }
 
 const grids::EvidentialGrid& Mapper::grid() const { return state_->grid; }
 
 grids::EvidentialGrid Mapper::take_grid() {
-  return std::exchange(state_->grid, grids::EvidentialGrid(state_->params.georeference));
+  return std::exchange(state_->grid, EvidentialGrid(state_->params.georeference));
 }
 
 const MappingCounts& Mapper::counts() const { return state_->counts; }

@@ -10,10 +10,13 @@
 
 #include "evidence/believed.hpp"
 #include "grids/evidential_grid.hpp"
+#include "mapping/freshness.hpp"
 #include "mapping/laser_model.hpp"
 #include "mapping/placed_sweep.hpp"
+#include "mapping/pose_blur.hpp"
 #include "mapping/pose_reliability.hpp"
 #include "mapping/scan_params.hpp"
+#include "mapping/sensor_reliability.hpp"
 #include "mapping/sonar_choice.hpp"
 #include "sensors/acquisition.hpp"
 
@@ -25,11 +28,16 @@ struct MapperParams {
   Li2006LaserParams laser;
   ScanParams scan;
   PoseReliabilityParams pose;
+  PoseBlurParams blur;
+  SensorReliabilityParams sensors;
+  FreshnessParams freshness;  ///< for who maps a whole drive, in the order of time: a Mapper is told the shares
 };
 
 /// Ranges from believed poses -> evidential grid (Li X. 2007, sec. 5; Li X. 2006, sec. 4). Only the cells of the fan or
 /// the beam's sector are touched ("restricted spreading"), each once per reading of a transducer and once per scan. An
-/// unsure pose discounts what it maps; a lost one maps nothing.
+/// unsure pose blurs what it maps: the mass of a cell is the mean over the poses that may be (EvidenceMean), all
+/// readings of a sweep or scan being taken from one pose. A pose that is not believed discounts; a lost one maps
+/// nothing.
 class Mapper {
  public:
   /// Binds the rig's sonar rings and range finders by their index.
@@ -41,13 +49,14 @@ class Mapper {
 
   /// \param T_map_base  at the time of the reading
   /// \param path        carries the pose to when each beam, or each transducer, was fired; empty: all at once
+  /// \param share       of the reading that is new, in (0, 1]: see Freshness
   /// \throws std::invalid_argument if the rig has no such sensor, the number of ranges is not that of the sensor, or
   ///         the pose is not finite; std::out_of_range if it is too far away to be addressed: the map is unchanged
   ///         then; std::length_error if the map may not grow as far: a part of the reading may be in it.
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::SonarSweep& sweep,
-              const sensors::MotionPath& path = {});
+              const sensors::MotionPath& path = {}, double share = 1.0);
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::RangeScan& scan,
-              const sensors::MotionPath& path = {});
+              const sensors::MotionPath& path = {}, double share = 1.0);
 
   [[nodiscard]] const grids::EvidentialGrid& grid() const;
   /// Hands the map over and starts a new one.

@@ -44,14 +44,15 @@ void require_sensor(std::size_t sensors, int index, std::size_t readings, std::s
 
 void place_sweep(const sensors::Rig& rig, const grids::Georeference& georeference, const PoseReliabilityParams& params,
                  const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::SonarSweep& sweep,
-                 const sensors::MotionPath& path, MappingCounts& counts, std::vector<PlacedReading>& placed) {
+                 const sensors::MotionPath& path, MappingCounts& counts, std::vector<PlacedReading>& placed,
+                 std::span<const double> trust, double share) {
   placed.clear();
   const auto& rings = rig.sonar_rings;
   const bool there = sweep.sensor >= 0 && static_cast<std::size_t>(sweep.sensor) < rings.size();
   require_sensor(rings.size(), sweep.sensor, sweep.ranges_m.size(),
                  there ? rings[static_cast<std::size_t>(sweep.sensor)].T_base_transducer.size() : 0, "sonar ring");
   const sensors::SonarRing& ring = rings[static_cast<std::size_t>(sweep.sensor)];
-  const PoseReliability reliability(T_map_base, georeference.resolution_m, params);
+  const PoseReliability reliability(T_map_base, georeference.resolution_m, params, share);
 
   // All poses are checked before a reading is placed.
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(2.0 * ring.range_max_m + 1.0);
@@ -79,6 +80,7 @@ void place_sweep(const sensors::Rig& rig, const grids::Georeference& georeferenc
     }
     ++(no_echo ? counts.no_returns : counts.echoes);
     reading.reliability = reliability.at(no_echo ? ring.range_max_m : reading.range_m);
+    if (!trust.empty()) reading.reliability *= trust[static_cast<std::size_t>(reading.transducer)];
     return false;
   });
 }

@@ -16,24 +16,29 @@ struct PoseReliabilityParams {
   double half_at_sigma_cells = 1.0;
 };
 
+/// Whether readings can be mapped from a pose at all.
+/// \throws std::invalid_argument if the pose or its covariance is not finite or a variance is negative; the message
+///         says to leave the reading out.
+void require_usable(const geometry::PoseEstimate& T_map_base);
+
 /// How far a reading taken from a pose is to be trusted in a grid: the discounting rates of that pose's readings by
 /// range.
 class PoseReliability {
  public:
-  /// \throws std::invalid_argument if the pose or its covariance is not finite or a variance is negative; the message
-  ///         says to leave the reading out.
+  /// \param share  of the readings that counts, in [0, 1]: the reliability of their sensor, and how much of them is new
+  /// \throws std::invalid_argument as require_usable, or if a parameter is out of range
   PoseReliability(const evidence::Believed<geometry::PoseEstimate>& T_map_base, double resolution_m,
-                  const PoseReliabilityParams& params = {});
+                  const PoseReliabilityParams& params = {}, double share = 1.0);
 
-  /// pignistic / (1 + (sigma / half)^2), with sigma^2 the larger variance of the position plus that of the heading
-  /// times range^2; 0 where nothing is to be mapped. In [0, 1].
+  /// share * pignistic / (1 + (sigma / half)^2), with sigma^2 the larger variance of the position plus that of the
+  /// heading times range^2; 0 where nothing is to be mapped. In [0, 1].
   [[nodiscard]] double at(double range_m) const {
     return belief_ / (1.0 + position_share_ + heading_share_ * range_m * range_m);
   }
   [[nodiscard]] bool maps_nothing() const { return belief_ <= 0.0; }
 
  private:
-  double belief_ = 0.0;
+  double belief_ = 0.0;  // and share
   double position_share_ = 0.0;
   double heading_share_ = 0.0;  // 1/m^2
 };

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,7 +43,7 @@ void for_each_mass(const grids::Georeference& georeference, const sensors::Sonar
 }
 
 /// The same readings as `Mapper` into cells of any rule, one after the other. Slower: each cell asks the sensor model
-/// itself, so that masses without ignorance stay what they are.
+/// itself, so that masses without ignorance stay what they are. An unsure pose discounts and does not blur.
 template <CellRule Rule>
 class SequentialMapper {
  public:
@@ -50,7 +51,11 @@ class SequentialMapper {
 
   /// \throws std::invalid_argument as Mapper.
   SequentialMapper(const sensors::Rig& rig, const MapperParams& params, Rule rule = {})
-      : rig_(rig), params_(params), rule_(std::move(rule)), grid_(params.georeference) {
+      : rig_(rig),
+        params_(params),
+        reliability_(rig, params.sensors),
+        rule_(std::move(rule)),
+        grid_(params.georeference) {
     for (const sensors::SonarRing& ring : rig.sonar_rings) sonars_.push_back(sonar_model(ring, params.sonar));
     const Li2006Laser laser(params.laser);
     for (const sensors::RangeFinder& finder : rig.range_finders)
@@ -59,8 +64,12 @@ class SequentialMapper {
 
   /// \throws as Mapper::insert
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::SonarSweep& sweep,
-              const sensors::MotionPath& path = {}) {
-    place_sweep(rig_, params_.georeference, params_.pose, T_map_base, sweep, path, counts_, placed_);
+              const sensors::MotionPath& path = {}, double share = 1.0) {
+    const auto& rings = rig_.sonar_rings;
+    const auto ring = static_cast<std::size_t>(sweep.sensor);
+    const bool there = sweep.sensor >= 0 && ring < rings.size();
+    place_sweep(rig_, params_.georeference, params_.pose, T_map_base, sweep, path, counts_, placed_,
+                there ? std::span<const double>(reliability_.of_ring(ring)) : std::span<const double>{}, share);
     for (const PlacedReading& reading : placed_)
       for_each_mass(params_.georeference, rig_.sonar_rings[static_cast<std::size_t>(sweep.sensor)],
                     sonars_[static_cast<std::size_t>(sweep.sensor)], reading,
@@ -69,13 +78,14 @@ class SequentialMapper {
 
   /// A scan's evidence is that of `Mapper` on an empty map: each cell takes it in once.
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::RangeScan& scan,
-              const sensors::MotionPath& path = {}) {
+              const sensors::MotionPath& path = {}, double share = 1.0) {
     const auto& finders = rig_.range_finders;
     const bool there = scan.sensor >= 0 && static_cast<std::size_t>(scan.sensor) < finders.size();
     require_sensor(finders.size(), scan.sensor, scan.ranges_m.size(),
                    there ? static_cast<std::size_t>(finders[static_cast<std::size_t>(scan.sensor)].count) : 0,
                    "range finder");
-    const PoseReliability reliability(T_map_base, params_.georeference.resolution_m, params_.pose);
+    const double trust = share * reliability_.of_finder(static_cast<std::size_t>(scan.sensor));
+    const PoseReliability reliability(T_map_base, params_.georeference.resolution_m, params_.pose, trust);
     ++counts_.scans;
     if (reliability.maps_nothing()) {
       ++counts_.refused;
@@ -115,6 +125,7 @@ class SequentialMapper {
 
   sensors::Rig rig_;
   MapperParams params_;
+  SensorReliability reliability_;
   Rule rule_;
   grids::CellGrid<Cell> grid_;
   std::vector<AnySonarModel> sonars_;  // one for each ring

@@ -20,10 +20,10 @@ TEST(MapperPose, AnUnsurePoseMapsLessAndALostOneNothing) {
     return mapper.take_grid();
   };
   const grids::CellIndex free{24, 24}, far_wall{120, 24};
-  const grids::EvidentialGrid sure = map(certain(pose)), blurred = map(with_sigma(pose, 0.05, 0.0)),
-                              turned = map(with_sigma(pose, 0.0, 0.02));
-  EXPECT_LT(weight(blurred.at(free)), 0.6 * weight(sure.at(free)));
-  EXPECT_LT(weight(turned.at(far_wall)), 0.5 * weight(sure.at(far_wall)));  // 5 m x 0.02 rad: two cells
+  const grids::EvidentialGrid sure = map(certain(pose)), unsure = map(with_sigma(pose, 0.02, 0.0)),
+                              turned = map(with_sigma(pose, 0.0, 0.004));
+  EXPECT_LT(weight(unsure.at(free)), 0.9 * weight(sure.at(free)));
+  EXPECT_LT(weight(turned.at(far_wall)), 0.9 * weight(sure.at(far_wall)));  // 5 m x 0.004 rad: less than half a cell
   Believed<PoseEstimate> doubted = certain(pose), ignorant = certain(pose), lost = certain(pose);
   doubted.belief = {.yes = 0.5, .no = 0.2, .unknown = 0.3};
   ignorant.belief = {};
