@@ -26,6 +26,7 @@
 #include "apps/terminal.hpp"
 #include "datasets/map_server.hpp"
 #include "datasets/trajectory.hpp"
+#include "mapping/judge_transducers.hpp"
 #include "mapping/map_rule.hpp"
 #include "mapping/mapper.hpp"
 #include "results/belief_tiff.hpp"
@@ -171,6 +172,24 @@ void write(const MapOptions& o, const Made& made, const std::vector<MapPart>& pa
   if (pictures && drawn) pictures->publish();
 }
 
+/// How far each transducer is opposed by all others; none without sonar.
+std::vector<mapping::TransducerVerdict> judged(const MapOptions& o, const std::vector<MapPart>& parts) {
+  for (const MapPart& part : parts)
+    if (!part.sweeps.empty()) return mapping::judge_transducers(part.path, part.rig, part.sweeps, o.params);
+  return {};
+}
+
+nlohmann::ordered_json json_of(const std::vector<mapping::TransducerVerdict>& verdicts) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const mapping::TransducerVerdict& v : verdicts)
+    all.push_back({{"ring", v.ring},
+                   {"transducer", v.transducer},
+                   {"readings", v.readings},
+                   {"opposed", v.opposed},
+                   {"reliability", v.reliability}});
+  return all;
+}
+
 grids::CellBox box_of(const Made& made) {
   if (const auto* sum = std::get_if<mapping::TrajectoryMap>(&made)) return sum->grid.bounding_box();
   return std::get<mapping::RuleMap>(made).map.box;
@@ -194,6 +213,7 @@ void execute(MapOptions o) {
   Interruptible::check();
   folder.commit();
   const grids::CellBox box = box_of(made);
+  const std::vector<mapping::TransducerVerdict> verdicts = about(o.from.source, [&] { return judged(o, parts); });
   if (o.format.json()) {
     print(nlohmann::ordered_json{{"map", o.out},
                                  {"poses", poses},
@@ -204,7 +224,8 @@ void execute(MapOptions o) {
                                  {"without_pose", without_pose},
                                  {"width", box.width},
                                  {"height", box.height},
-                                 {"resolution_m", o.params.mapper.georeference.resolution_m}});
+                                 {"resolution_m", o.params.mapper.georeference.resolution_m},
+                                 {"transducers", json_of(verdicts)}});
     return;
   }
   std::printf("mapped %lld scans and %lld sonar sweeps with %s; %lld readings had no pose near in time\n",
@@ -212,6 +233,7 @@ void execute(MapOptions o) {
               static_cast<long long>(without_pose));
   std::printf("map: %s (%d x %d cells of %g m)\n", o.out.c_str(), box.width, box.height,
               o.params.mapper.georeference.resolution_m);
+  if (!verdicts.empty()) std::printf("transducers: %s\n", mapping::summary(verdicts).c_str());
   if (!o.pictures.empty()) std::printf("pictures: %s\n", o.pictures.c_str());
 }
 

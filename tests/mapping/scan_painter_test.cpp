@@ -95,7 +95,9 @@ TEST(MapperLaser, EveryCellGetsTheEvidenceOfItsBeamOnce) {
 
 TEST(MapperLaser, EveryCellIsUpdatedOnceWhereTrustChangesAlongASurface) {
   const sensors::RangeFinder finder = panoramic();
-  Mapper mapper(rig_with(finder));
+  MapperParams params;
+  params.blur.from_cells = std::numeric_limits<double>::infinity();
+  Mapper mapper(rig_with(finder), params);
   const Pose2 pose{1.1, 0.9, 0.4};
   sensors::RangeScan scan = scan_of_room(finder, pose, 6.0, 3.0);
   for (int i = 0; i < finder.count; ++i)
