@@ -78,8 +78,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 std::string band_label(const ErrorSeries& s, double reach, bool degrees) {
   const double widest = s.high.empty() ? 0.0 : *std::max_element(s.high.begin(), s.high.end());
   if (!(widest > reach)) return "+-3 sigma";
-  return "+-3 sigma (cut off; up to " + (degrees ? tick_label(widest, 0.1) + " deg" : length_text(widest)) +
-         ")";
+  return "+-3 sigma (cut off; up to " + (degrees ? tick_label(widest, 0.1) + " deg" : length_text(widest)) + ")";
 }
 
 void status_legend(Canvas& canvas, double y) {
