@@ -46,7 +46,7 @@ struct MapsOptions {
 };
 
 /// One line of the table.
-struct Line {
+struct MapLine {
   std::string model, rule;
   mapping::RuleMap map;
   evaluation::MapScore score;
@@ -65,8 +65,8 @@ std::vector<std::string> all_rules() {
   return names;
 }
 
-Line map_with(const MapPart& part, const MapsOptions& o, const std::string& model, const std::string& rule,
-              const datasets::OccupancyMap& truth, std::span<const datasets::TruthState> states) {
+MapLine map_with(const MapPart& part, const MapsOptions& o, const std::string& model, const std::string& rule,
+                 const datasets::OccupancyMap& truth, std::span<const datasets::TruthState> states) {
   mapping::TrajectoryMappingParams params = o.params;
   SonarChoice sonar = o.sonar;
   sonar.model = model;
@@ -76,7 +76,7 @@ Line map_with(const MapPart& part, const MapsOptions& o, const std::string& mode
                                             mapping::map_rule(rule).rule, [](double) { Interruptible::check(); });
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   const evaluation::MapScore score = evaluation::map_score(map.map, truth);
-  Line line{model, rule, std::move(map), score, took.count(), std::nullopt};
+  MapLine line{model, rule, std::move(map), score, took.count(), std::nullopt};
   if (!states.empty() && !part.scans.empty())
     line.changes = evaluation::change_score(part.path, part.rig, part.scans, states, params,
                                             mapping::map_rule(rule).rule, [](double) { Interruptible::check(); });
@@ -92,11 +92,11 @@ datasets::OccupancyMap true_map(const std::string& source) {
   return datasets::read_map(file);
 }
 
-std::string text_of(const std::vector<Line>& lines) {
+std::string text_of(const std::vector<MapLine>& lines) {
   std::string text = fmt::format("{:<8} {:<14} {:>8} {:>9} {:>9} {:>7} {:>9} {:>9} {:>10} {:>11} {:>10} {:>9}\n",
                                  "model", "rule", "decided", "of those", "accuracy", "Brier", "log loss", "conflict",
                                  "ignorance", "contour cm", "missed cm", "time ms");
-  for (const Line& l : lines)
+  for (const MapLine& l : lines)
     text += fmt::format(
         "{:<8} {:<14} {:>7.2f}% {:>8.2f}% {:>8.2f}% {:>7.4f} {:>9.4f} {:>9.4f} {:>10.4f} {:>11.1f} "
         "{:>10.1f} {:>9.1f}\n",
@@ -107,9 +107,9 @@ std::string text_of(const std::vector<Line>& lines) {
 }
 
 /// How the maps follow a world that changed; empty where it did not.
-std::string changes_text(const std::vector<Line>& lines) {
+std::string changes_text(const std::vector<MapLine>& lines) {
   std::string text;
-  for (const Line& l : lines) {
+  for (const MapLine& l : lines) {
     if (!l.changes) continue;
     if (text.empty())
       text = fmt::format("\n{:<8} {:<14} {:>14} {:>14} {:>16}\n", "model", "rule", "after 3 sweeps", "after 5 sweeps",
@@ -125,7 +125,7 @@ std::string changes_text(const std::vector<Line>& lines) {
          "them since;\nof cells that never changed and were seen in five scans, those that are wrong at the end.\n";
 }
 
-constexpr const char* kTerms =
+constexpr const char* kMapTerms =
     "\nCells that were seen and whose truth is known count, but for those more than one cell inside of a solid. "
     "decided:\n"
     "m(occupied) and m(empty) differ; of those: right, a wall within one cell; accuracy: of all, undecided is wrong.\n"
@@ -133,7 +133,7 @@ constexpr const char* kTerms =
     "nearest\n"
     "true wall, at most 50 cm; missed: from true walls to what is said to be occupied.\n";
 
-ordered_json json_of(const Line& l) {
+ordered_json json_of(const MapLine& l) {
   return {{"model", l.model},
           {"rule", l.rule},
           {"cells", l.score.cells},
@@ -153,11 +153,11 @@ ordered_json json_of(const Line& l) {
           {"unchanged_wrong", number_or_null(l.changes ? std::optional(l.changes->wrong_share()) : std::nullopt)}};
 }
 
-std::string csv_of(const std::vector<Line>& lines) {
+std::string csv_of(const std::vector<MapLine>& lines) {
   std::string csv =
       "#model,rule,cells,decided,accuracy_of_decided,accuracy,brier,log_loss,conflict,ignorance,contour [m],missed [m],"
       "abandoned,time [ms]\n";
-  for (const Line& l : lines)
+  for (const MapLine& l : lines)
     csv += fmt::format("{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{},{:.3f}\n", l.model,
                        l.rule, l.score.cells, l.score.decided_share(), l.score.accuracy_of_decided(),
                        l.score.accuracy(), l.score.brier, l.score.log_loss, l.score.conflict, l.score.ignorance,
@@ -165,9 +165,9 @@ std::string csv_of(const std::vector<Line>& lines) {
   return csv;
 }
 
-void draw(const fs::path& file, const std::vector<Line>& lines) {
+void draw_maps(const fs::path& file, const std::vector<MapLine>& lines) {
   std::vector<results::SheetMap> maps;
-  for (const Line& l : lines)
+  for (const MapLine& l : lines)
     maps.push_back({l.model + " " + l.rule, fmt::format("accuracy {:.2f} %", 100.0 * l.score.accuracy()), &l.map.map});
   results::write_png(file, results::map_sheet(maps));
 }
@@ -182,7 +182,7 @@ void execute(MapsOptions& o) {
   std::optional<datasets::StagedFolder> pictures;
   if (!o.pictures.empty()) pictures.emplace(o.pictures, refuse_older_pictures);
   if (part.sweeps.empty()) o.models = {o.models.front()};  // nothing depends on it
-  std::vector<Line> lines;
+  std::vector<MapLine> lines;
   Progress progress("mapping");
   for (const std::string& model : o.models)
     for (const std::string& rule : o.rules) {
@@ -190,17 +190,17 @@ void execute(MapsOptions& o) {
       if (part.sweeps.empty()) lines.back().model = "laser";
       progress.update(static_cast<double>(lines.size()) / static_cast<double>(o.models.size() * o.rules.size()));
     }
-  if (pictures) draw(pictures->path() / "maps.png", lines);
+  if (pictures) draw_maps(pictures->path() / "maps.png", lines);
   if (!o.out.empty()) results::write_text(o.out, csv_of(lines));
   if (pictures) pictures->commit();
   if (o.format.json()) {
     ordered_json all = ordered_json::array();
-    for (const Line& line : lines) all.push_back(json_of(line));
+    for (const MapLine& line : lines) all.push_back(json_of(line));
     print({{"dataset", o.from.source}, {"poses", read.poses}, {"maps", all}});
     return;
   }
-  std::printf("%s, mapped with %s\n%s%s%s", o.from.source.c_str(), read.poses.c_str(), text_of(lines).c_str(), kTerms,
-              changes_text(lines).c_str());
+  std::printf("%s, mapped with %s\n%s%s%s", o.from.source.c_str(), read.poses.c_str(), text_of(lines).c_str(),
+              kMapTerms, changes_text(lines).c_str());
 }
 
 }  // namespace

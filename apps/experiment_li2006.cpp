@@ -17,13 +17,13 @@ using mapping::Variant;
 
 enum Sensors { kSonar = 1, kLaser = 2, kBoth = kSonar | kLaser };
 
-struct Contender {
+struct SensedMethod {
   MapMethod method;
   Sensors sensors;
   std::string paper;
 };
 
-mapping::TrajectoryMappingParams with(const mapping::SonarParams& sonar, double laser_reliability) {
+mapping::TrajectoryMappingParams sensed_params(const mapping::SonarParams& sonar, double laser_reliability) {
   mapping::TrajectoryMappingParams params;
   params.mapper.georeference.resolution_m = 0.1;
   params.mapper.sonar = sonar;
@@ -39,26 +39,30 @@ Li2006SonarParams sonar(Variant variant, double rho_v, double reliability) {
           .variant = variant};
 }
 
-std::vector<Contender> contenders() {
+std::vector<SensedMethod> sensed_methods() {
   constexpr double kUndiscounted = 0.99, kLaserReliability = 0.95;  // p_i; not in the paper
   const Li2006SonarParams printed = sonar(Variant::kPrinted, 1.0, 0.7), resolved = sonar(Variant::kResolved, 1.0, 0.7);
   const Li2006SonarParams narrow = sonar(Variant::kResolved, 100.0, 0.7);
   return {
-      {{"sonar, printed", with(printed, kLaserReliability), grids::ReadOut::kDsmc}, kSonar, ""},
-      {{"sonar, resolved", with(resolved, kLaserReliability), grids::ReadOut::kDsmc}, kSonar, ""},
-      {{"sonar, resolved, rho_v 100", with(narrow, kLaserReliability), grids::ReadOut::kDsmc}, kSonar, ""},
-      {{"laser", with(resolved, kLaserReliability), grids::ReadOut::kDsmc}, kLaser, ""},
-      {{"both, DSmT, printed, discounted", with(printed, kLaserReliability), grids::ReadOut::kDsmc}, kBoth, "clearer"},
-      {{"both, DSmT, resolved, discounted", with(resolved, kLaserReliability), grids::ReadOut::kDsmc},
+      {{"sonar, printed", sensed_params(printed, kLaserReliability), grids::ReadOut::kDsmc}, kSonar, ""},
+      {{"sonar, resolved", sensed_params(resolved, kLaserReliability), grids::ReadOut::kDsmc}, kSonar, ""},
+      {{"sonar, resolved, rho_v 100", sensed_params(narrow, kLaserReliability), grids::ReadOut::kDsmc}, kSonar, ""},
+      {{"laser", sensed_params(resolved, kLaserReliability), grids::ReadOut::kDsmc}, kLaser, ""},
+      {{"both, DSmT, printed, discounted", sensed_params(printed, kLaserReliability), grids::ReadOut::kDsmc},
        kBoth,
        "clearer"},
-      {{"both, DSmT, resolved, not discounted", with(sonar(Variant::kResolved, 1.0, kUndiscounted), kUndiscounted),
-        grids::ReadOut::kDsmc},
+      {{"both, DSmT, resolved, discounted", sensed_params(resolved, kLaserReliability), grids::ReadOut::kDsmc},
+       kBoth,
+       "clearer"},
+      {{"both, DSmT, resolved, not discounted",
+        sensed_params(sonar(Variant::kResolved, 1.0, kUndiscounted), kUndiscounted), grids::ReadOut::kDsmc},
        kBoth,
        ""},
-      {{"both, Dempster, the same masses", with(resolved, kLaserReliability), grids::ReadOut::kDempster}, kBoth, ""},
-      {{"both, resolved, rho_v 100", with(narrow, kLaserReliability), grids::ReadOut::kDempster}, kBoth, ""},
-      {{"both, Credo's calibrated sonar", with(mapping::CalibratedSonarParams{}, kLaserReliability),
+      {{"both, Dempster, the same masses", sensed_params(resolved, kLaserReliability), grids::ReadOut::kDempster},
+       kBoth,
+       ""},
+      {{"both, resolved, rho_v 100", sensed_params(narrow, kLaserReliability), grids::ReadOut::kDempster}, kBoth, ""},
+      {{"both, Credo's calibrated sonar", sensed_params(mapping::CalibratedSonarParams{}, kLaserReliability),
         grids::ReadOut::kDempster},
        kBoth,
        ""},
@@ -76,13 +80,13 @@ MapDrive seen_by(const MapDrive& drive, Sensors sensors) {
 
 MapReport reproduce_li2006(const ExperimentParams& params, const Report& report) {
   const sim::World world = sim::load_world(find_shipped("li2006", kWorlds));
-  const std::vector<Contender> all = contenders();
+  const std::vector<SensedMethod> all = sensed_methods();
   const int maps = params.seeds * static_cast<int>(all.size());
   int done = 0;
   MapTable table{"which sensors, which formulas", score_columns(), {}};
   table.columns.push_back({"conflict", 3});
-  for (const Contender& contender : all)
-    table.rows.push_back(empty_row(contender.method.name, contender.paper, table.columns.size()));
+  for (const SensedMethod& sensed : all)
+    table.rows.push_back(empty_row(sensed.method.name, sensed.paper, table.columns.size()));
   MapReport result;
   for (int i = 0; i < params.seeds; ++i) {
     const MapDrive drive = evaluation::play_for_mapping(world, params.seed + static_cast<std::uint64_t>(i));

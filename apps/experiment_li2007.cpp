@@ -19,7 +19,7 @@ using mapping::Variant;
 
 constexpr double kPrintedEpsilon_m = 0.1;  // not in the paper
 
-mapping::TrajectoryMappingParams with(const mapping::SonarParams& sonar) {
+mapping::TrajectoryMappingParams room_params(const mapping::SonarParams& sonar) {
   mapping::TrajectoryMappingParams params;
   params.mapper.sonar = sonar;
   return params;
@@ -34,37 +34,37 @@ Li2007Params formulas(Variant variant, double rho_v, double epsilon_m, double re
 }
 
 /// A method, what the paper says of it, and whether it decides by eq. (2) to the letter.
-struct Contender {
+struct RoomMethod {
   MapMethod method;
   std::string paper;
   bool by_belief = false;
 };
 
-std::vector<Contender> contenders() {
+std::vector<RoomMethod> room_methods() {
   const Li2007Params printed = formulas(Variant::kPrinted, 1.0, kPrintedEpsilon_m, 1.0);
   const Li2007Params resolved = formulas(Variant::kResolved, 1.0, kPrintedEpsilon_m, 1.0);
   return {
-      {{"DSmT, printed, Bel(occupied) > 1/2", with(printed), mapping::DsmcFold{}}, "97", true},
-      {{"DSmT, printed, larger mass", with(printed), mapping::DsmcFold{}}, "97"},
-      {{"DSmT, resolved, Bel(occupied) > 1/2", with(resolved), mapping::DsmcFold{}}, "97", true},
-      {{"DSmT, resolved, larger mass", with(resolved), mapping::DsmcFold{}}, "97"},
-      {{"the same masses, Dempster", with(resolved), mapping::DempsterFold{}}, ""},
-      {{"DST (Su), chord in cells", with(mapping::SuParams{}), mapping::DempsterFold{}}, "93"},
-      {{"DST (Su), chord in metres", with(mapping::SuParams{.unit_m = 1.0}), mapping::DempsterFold{}}, "93"},
-      {{"Credo's default (rho_v 100, discounted)", with(Li2007Params{}), grids::ReadOut::kDempster}, ""},
-      {{"Credo, calibrated", with(mapping::CalibratedSonarParams{}), grids::ReadOut::kDempster}, ""},
+      {{"DSmT, printed, Bel(occupied) > 1/2", room_params(printed), mapping::DsmcFold{}}, "97", true},
+      {{"DSmT, printed, larger mass", room_params(printed), mapping::DsmcFold{}}, "97"},
+      {{"DSmT, resolved, Bel(occupied) > 1/2", room_params(resolved), mapping::DsmcFold{}}, "97", true},
+      {{"DSmT, resolved, larger mass", room_params(resolved), mapping::DsmcFold{}}, "97"},
+      {{"the same masses, Dempster", room_params(resolved), mapping::DempsterFold{}}, ""},
+      {{"DST (Su), chord in cells", room_params(mapping::SuParams{}), mapping::DempsterFold{}}, "93"},
+      {{"DST (Su), chord in metres", room_params(mapping::SuParams{.unit_m = 1.0}), mapping::DempsterFold{}}, "93"},
+      {{"Credo's default (rho_v 100, discounted)", room_params(Li2007Params{}), grids::ReadOut::kDempster}, ""},
+      {{"Credo, calibrated", room_params(mapping::CalibratedSonarParams{}), grids::ReadOut::kDempster}, ""},
   };
 }
 
 /// Resolved formulas, discounted, as log-commonalities.
-struct Sweep {
+struct FreeParameters {
   std::vector<double> rho_v{1.0, 3.0, 10.0, 30.0, 100.0, 300.0};
   std::vector<double> epsilon_m{0.02, 0.05, 0.1};
   std::vector<double> reliability{0.3, 0.8, 1.0};
 };
 
 MapTable sweep_table(const std::vector<MapDrive>& drives, const std::function<void()>& made) {
-  const Sweep sweep;
+  const FreeParameters sweep;
   MapTable table{"the resolved formulas over their free parameters: accuracy %", {}, {}};
   for (const double rho_v : sweep.rho_v) table.columns.push_back({fmt::format("rho_v {:g}", rho_v), 2, 100.0});
   for (const double epsilon_m : sweep.epsilon_m)
@@ -73,7 +73,7 @@ MapTable sweep_table(const std::vector<MapDrive>& drives, const std::function<vo
           empty_row(fmt::format("eps {:g} m, reliability {:g}", epsilon_m, reliability), "", table.columns.size()));
       for (std::size_t i = 0; i < sweep.rho_v.size(); ++i)
         for (const MapDrive& drive : drives) {
-          const MapMethod method{"", with(formulas(Variant::kResolved, sweep.rho_v[i], epsilon_m, reliability)),
+          const MapMethod method{"", room_params(formulas(Variant::kResolved, sweep.rho_v[i], epsilon_m, reliability)),
                                  grids::ReadOut::kDempster};
           row.values[i].add(evaluation::map_score(evaluation::map_by(method, drive).map, drive.truth).accuracy());
           made();
@@ -96,8 +96,8 @@ const char* const kWhy =
 MapReport reproduce_li2007(const ExperimentParams& params, const Report& report) {
   const sim::World world = sim::load_world(find_shipped("li2007", kWorlds));
   const sim::World slow = sim::load_world(find_shipped("li2007_slow", kWorlds));
-  const std::vector<Contender> all = contenders();
-  const Sweep sweep;
+  const std::vector<RoomMethod> all = room_methods();
+  const FreeParameters sweep;
   const int maps = params.seeds * static_cast<int>(2 * all.size() + sweep.rho_v.size() * sweep.epsilon_m.size() *
                                                                         sweep.reliability.size());
   int done = 0;
@@ -113,9 +113,9 @@ MapReport reproduce_li2007(const ExperimentParams& params, const Report& report)
   MapTable longer{"366 acquisitions on the same track, which its DST needs (36.6 s)", score_columns(), {}};
   table.columns.push_back({"abandoned", 0, 1.0});
   longer.columns.push_back({"abandoned", 0, 1.0});
-  for (const Contender& contender : all)
+  for (const RoomMethod& room_method : all)
     for (MapTable* t : {&table, &longer})
-      t->rows.push_back(empty_row(contender.method.name, contender.paper, t->columns.size()));
+      t->rows.push_back(empty_row(room_method.method.name, room_method.paper, t->columns.size()));
   std::vector<MapDrive> drives;
   std::int64_t different = 0;
   for (int i = 0; i < params.seeds; ++i) {
@@ -136,8 +136,8 @@ MapReport reproduce_li2007(const ExperimentParams& params, const Report& report)
                decided});
         made();
       }
-    const MapMethod dsmc{"", with(Li2007Params{}), grids::ReadOut::kDsmc},
-        dempster{"", with(Li2007Params{}), grids::ReadOut::kDempster};
+    const MapMethod dsmc{"", room_params(Li2007Params{}), grids::ReadOut::kDsmc},
+        dempster{"", room_params(Li2007Params{}), grids::ReadOut::kDempster};
     different += evaluation::decided_differently(evaluation::map_by(dsmc, drives.back()).map,
                                                  evaluation::map_by(dempster, drives.back()).map);
   }

@@ -93,12 +93,12 @@ grids::EvidentialGrid summed(const MapDrive& drive, const MapperParams& params) 
   return mapping::map_along(drive.T_map_base, drive.rig, {}, drive.sweeps, along).grid;
 }
 
-struct Scenario {
+struct FleetScenario {
   std::string name;
   mapping::SonarParams sonar;
 };
 
-std::vector<Scenario> scenarios() {
+std::vector<FleetScenario> fleet_scenarios() {
   const mapping::LiPParams printed{
       .reliability = 1.0, .no_echo = {.reliability = 0.0}, .variant = mapping::Variant::kPrinted};
   mapping::LiPParams resolved = printed;
@@ -108,11 +108,11 @@ std::vector<Scenario> scenarios() {
           {"PCR2, Li X. 2007 with rho_v 100", mapping::Li2007Params{}}};
 }
 
-std::string percent(const evaluation::MapScore& score) {
+std::string accuracy_words(const evaluation::MapScore& score) {
   return fmt::format("accuracy {:.2f} % of {} cells", 100.0 * score.accuracy(), score.cells);
 }
 
-void add(MapRow& row, const grids::MassMap& map, const datasets::OccupancyMap& truth) {
+void add_seen(MapRow& row, const grids::MassMap& map, const datasets::OccupancyMap& truth) {
   const evaluation::MapScore score = evaluation::map_score(map, truth);
   add_score(row, score);
   row.values.back().add(static_cast<double>(score.cells));
@@ -123,12 +123,12 @@ void add(MapRow& row, const grids::MassMap& map, const datasets::OccupancyMap& t
 MapReport reproduce_lip(const ExperimentParams& params, const Report& report) {
   const sim::World first_world = sim::load_world(find_shipped("lip_1", kWorlds));
   const sim::World second_world = sim::load_world(find_shipped("lip_2", kWorlds));
-  const std::vector<Scenario> all = scenarios();
+  const std::vector<FleetScenario> all = fleet_scenarios();
   const int maps = params.seeds * static_cast<int>(2 * all.size() + 4);
   int done = 0;
   MapTable table{"one robot and two, in the same time", score_columns(), {}};
   table.columns.push_back({"cells seen", 0});
-  for (const Scenario& scenario : all)
+  for (const FleetScenario& scenario : all)
     for (const char* robots : {", robot I alone", ", robots I and II"})
       table.rows.push_back(empty_row(
           scenario.name + robots, std::string(robots) == ", robot I alone" ? "" : "sees more", table.columns.size()));
@@ -148,12 +148,12 @@ MapReport reproduce_lip(const ExperimentParams& params, const Report& report) {
       const MapperParams with = params_with(all[k].sonar);
       const grids::MassMap one = fused(first, nobody, with, Order::kByTime);
       const grids::MassMap two = fused(first, second, with, Order::kByTime);
-      add(table.rows[2 * k], one, first.truth);
-      add(table.rows[2 * k + 1], two, first.truth);
+      add_seen(table.rows[2 * k], one, first.truth);
+      add_seen(table.rows[2 * k + 1], two, first.truth);
       report(done += 2, maps);
       if (i == 0) {
-        result.maps.push_back({all[k].name + ": I", percent(evaluation::map_score(one, first.truth)), one});
-        result.maps.push_back({all[k].name + ": I, II", percent(evaluation::map_score(two, first.truth)), two});
+        result.maps.push_back({all[k].name + ": I", accuracy_words(evaluation::map_score(one, first.truth)), one});
+        result.maps.push_back({all[k].name + ": I, II", accuracy_words(evaluation::map_score(two, first.truth)), two});
       }
       if (k != 1) continue;
       orders.rows[0].values[0].add(static_cast<double>(
@@ -168,11 +168,12 @@ MapReport reproduce_lip(const ExperimentParams& params, const Report& report) {
     together.merge(others);
     reversed.merge(mine);
     for (evaluation::Spread& spread : orders.rows[1].values) spread.add(together == reversed ? 0.0 : 1.0);
-    add(table.rows[2 * all.size()], grids::mass_map(mine, grids::ReadOut::kDempster), first.truth);
+    add_seen(table.rows[2 * all.size()], grids::mass_map(mine, grids::ReadOut::kDempster), first.truth);
     const grids::MassMap both = grids::mass_map(together, grids::ReadOut::kDempster);
-    add(table.rows[2 * all.size() + 1], both, first.truth);
+    add_seen(table.rows[2 * all.size() + 1], both, first.truth);
     if (i == 0)
-      result.maps.push_back({"Credo, calibrated: I, II", percent(evaluation::map_score(both, first.truth)), both});
+      result.maps.push_back(
+          {"Credo, calibrated: I, II", accuracy_words(evaluation::map_score(both, first.truth)), both});
     report(done += 2, maps);
   }
   result.heading =

@@ -18,39 +18,39 @@ using evaluation::MapMethod;
 using mapping::Approximation;
 
 /// The parameters that the paper does not give.
-struct Setting {
+struct ZhuSetting {
   double e = 0.0, rho = 0.0, n = 0.0;
 };
 
-std::vector<Setting> settings() {
-  std::vector<Setting> all;
+std::vector<ZhuSetting> zhu_settings() {
+  std::vector<ZhuSetting> all;
   for (const double e : {0.01, 0.05, 0.1})
     for (const double rho : {0.1, 0.3, 0.5, 0.9})
       for (const double n : {10.0, 20.0, 40.0}) all.push_back({e, rho, n});
   return all;
 }
 
-MapMethod method_of(const Setting& s, Approximation approximation) {
+MapMethod method_of(const ZhuSetting& s, Approximation approximation) {
   mapping::TrajectoryMappingParams params;
   params.mapper.sonar = mapping::ZhuParams{.rho = s.rho, .cells_of_arc = s.n};
   return {"", params,
           mapping::ApproximatedDempsterFold{{.e1 = s.e, .e2 = s.e, .e3 = s.e, .approximation = approximation}}};
 }
 
-std::string words(const Setting& s) { return fmt::format("e {:g}, rho {:g}, n {:g}", s.e, s.rho, s.n); }
+std::string setting_words(const ZhuSetting& s) { return fmt::format("e {:g}, rho {:g}, n {:g}", s.e, s.rho, s.n); }
 
 /// How cells are decided, and so which are wrong: the undecided are.
 enum Criterion { kByRule, kByLargerMass };
 constexpr std::array kCriteria{kByRule, kByLargerMass};
 constexpr std::array kCriterionNames{"decided by eq. (10)", "the larger mass"};
 
-double wrong(const grids::MassMap& map, const datasets::OccupancyMap& truth, Criterion criterion) {
+double wrong_count(const grids::MassMap& map, const datasets::OccupancyMap& truth, Criterion criterion) {
   const evaluation::MapScore score =
       evaluation::map_score(criterion == kByRule ? evaluation::decided_by_zhu(map) : map, truth);
   return static_cast<double>(score.cells - score.right);
 }
 
-double median(std::vector<double> values) {
+double median_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
@@ -70,7 +70,7 @@ struct BestOnOthers {
 };
 
 /// For each seed the setting that is best over the other seeds, and what it leaves wrong on this one.
-BestOnOthers best_on_other_seeds(const Wrong& all, const std::vector<Setting>& settings, std::size_t seeds) {
+BestOnOthers best_on_other_seeds(const Wrong& all, const std::vector<ZhuSetting>& settings, std::size_t seeds) {
   BestOnOthers best;
   for (std::size_t seed = 0; seed < seeds; ++seed) {
     const auto on_others = [&](std::size_t s) {
@@ -82,8 +82,8 @@ BestOnOthers best_on_other_seeds(const Wrong& all, const std::vector<Setting>& s
     for (std::size_t s = 1; s < settings.size(); ++s)
       if (on_others(s) < on_others(chosen)) chosen = s;
     best.wrong.add(all[chosen][seed]);
-    if (best.settings.find(words(settings[chosen])) == std::string::npos)
-      best.settings += (best.settings.empty() ? "" : "; ") + words(settings[chosen]);
+    if (best.settings.find(setting_words(settings[chosen])) == std::string::npos)
+      best.settings += (best.settings.empty() ? "" : "; ") + setting_words(settings[chosen]);
   }
   return best;
 }
@@ -97,13 +97,13 @@ std::vector<double> reductions(const WrongByAll& wrong_cells) {
   return all;
 }
 
-MapTable equal_parameters(const WrongByAll& wrong_cells, const std::vector<Setting>& all, Criterion criterion) {
+MapTable equal_parameters(const WrongByAll& wrong_cells, const std::vector<ZhuSetting>& all, Criterion criterion) {
   MapTable table{
       fmt::format("at equal parameters, {}: wrong cells, undecided ones included", kCriterionNames[criterion]),
       {{"fixed", 0}, {"adaptive", 0}, {"fewer %", 1, 100.0}, {"at face value", 0}},
       {}};
   for (std::size_t s = 0; s < all.size(); ++s) {
-    MapRow& row = table.rows.emplace_back(empty_row(words(all[s]), "", table.columns.size()));
+    MapRow& row = table.rows.emplace_back(empty_row(setting_words(all[s]), "", table.columns.size()));
     for (std::size_t i = 0; i < wrong_cells[0][s].size(); ++i) {
       const double fixed = wrong_cells[0][s][i], adaptive = wrong_cells[1][s][i];
       row.values[0].add(fixed);
@@ -115,12 +115,12 @@ MapTable equal_parameters(const WrongByAll& wrong_cells, const std::vector<Setti
   return table;
 }
 
-const char* const kWhatIsLost =
+const char* const kLostByZhu =
     "The paper says \"more accurate by 20 percent\" and defines neither accuracy nor e, rho and n, the cells of the "
     "arc. "
     "The accumulators are taken as the sentence has them that names them: k1 counts \"empty\". At face value, k1 "
     "counting \"full\", evidence against the history is hardly weakened, and evidence with it by all of e.";
-const char* const kWhy =
+const char* const kWhyZhu =
     "What explains it: a cell of the arc gets 1/n, and the fixed approximation takes 2 e of that, up to a half, away "
     "from "
     "every reading and gives it to the opposite and to ignorance; adaptive, what agrees with the history is hardly "
@@ -134,7 +134,7 @@ const char* const kWhy =
 
 MapReport reproduce_zhu(const ExperimentParams& params, const Report& report) {
   const sim::World world = sim::load_world(find_shipped("zhu", kWorlds));
-  const std::vector<Setting> all = settings();
+  const std::vector<ZhuSetting> all = zhu_settings();
   const int maps = params.seeds * static_cast<int>(all.size() * kApproximations.size());
   const std::size_t seeds = static_cast<std::size_t>(params.seeds);
   std::array<WrongByAll, kCriteria.size()> wrong_cells;
@@ -148,11 +148,12 @@ MapReport reproduce_zhu(const ExperimentParams& params, const Report& report) {
       for (std::size_t a = 0; a < kApproximations.size(); ++a) {
         const mapping::RuleMap map = evaluation::map_by(method_of(all[s], kApproximations[a]), drive);
         for (const Criterion criterion : kCriteria)
-          wrong_cells[criterion][a][s][i] = wrong(map.map, drive.truth, criterion);
+          wrong_cells[criterion][a][s][i] = wrong_count(map.map, drive.truth, criterion);
         if (i == 0 && all[s].e == 0.1 && all[s].rho == 0.3 && all[s].n == 20.0)
-          result.maps.push_back({kApproximationNames[a],
-                                 fmt::format("{}: {:.0f} wrong cells", words(all[s]), wrong_cells[kByRule][a][s][i]),
-                                 evaluation::decided_by_zhu(map.map)});
+          result.maps.push_back(
+              {kApproximationNames[a],
+               fmt::format("{}: {:.0f} wrong cells", setting_words(all[s]), wrong_cells[kByRule][a][s][i]),
+               evaluation::decided_by_zhu(map.map)});
         report(++done, maps);
       }
   }
@@ -163,7 +164,7 @@ MapReport reproduce_zhu(const ExperimentParams& params, const Report& report) {
   result.tables = {claim, best};
   for (const Criterion criterion : kCriteria) {
     MapRow& row = result.tables[0].rows.emplace_back(empty_row(kCriterionNames[criterion], "20", 1));
-    if (const auto shares = reductions(wrong_cells[criterion]); !shares.empty()) row.values[0].add(median(shares));
+    if (const auto shares = reductions(wrong_cells[criterion]); !shares.empty()) row.values[0].add(median_of(shares));
     for (const std::size_t a : {0U, 1U}) {
       const BestOnOthers own = best_on_other_seeds(wrong_cells[criterion][a], all, seeds);
       result.tables[1].rows.push_back(
@@ -175,7 +176,7 @@ MapReport reproduce_zhu(const ExperimentParams& params, const Report& report) {
   }
   result.heading = fmt::format("Zhu: 9 m x 7 m, five sonars in two groups, cells of 5 cm; {} seeds from {}",
                                params.seeds, params.seed);
-  result.notes = {kWhatIsLost, kWhy};
+  result.notes = {kLostByZhu, kWhyZhu};
   return result;
 }
 

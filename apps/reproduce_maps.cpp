@@ -22,17 +22,17 @@
 namespace credo::apps {
 namespace {
 
-struct Experiment {
+struct MapExperiment {
   const char* name;
   const char* what;
   MapReport (*reproduce)(const ExperimentParams&, const Report&);
 };
 
-constexpr std::array kExperiments{
-    Experiment{"sonar-laser", "Li X. 2006: sonar and laser, discounted, by DSmT.", reproduce_li2006},
-    Experiment{"sonar", "Li X. 2007: sonar by DSmT against DST.", reproduce_li2007},
-    Experiment{"multi-robot", "Li P.: two robots against one, by PCR2.", reproduce_lip},
-    Experiment{"improved-ds", "Zhu: self-adaptive approximation against a fixed one.", reproduce_zhu}};
+constexpr std::array kMapExperiments{
+    MapExperiment{"sonar-laser", "Li X. 2006: sonar and laser, discounted, by DSmT.", reproduce_li2006},
+    MapExperiment{"sonar", "Li X. 2007: sonar by DSmT against DST.", reproduce_li2007},
+    MapExperiment{"multi-robot", "Li P.: two robots against one, by PCR2.", reproduce_lip},
+    MapExperiment{"improved-ds", "Zhu: self-adaptive approximation against a fixed one.", reproduce_zhu}};
 
 struct MapExperimentOptions {
   ExperimentParams params;
@@ -42,7 +42,7 @@ struct MapExperimentOptions {
   OutputFormat format;
 };
 
-MapReport reproduce(const Experiment& experiment, const ExperimentParams& params) {
+MapReport reproduce(const MapExperiment& experiment, const ExperimentParams& params) {
   Progress progress(std::string("reproducing ") + experiment.name);
   return experiment.reproduce(params, [&](int made, int of) {
     Interruptible::check();
@@ -50,14 +50,14 @@ MapReport reproduce(const Experiment& experiment, const ExperimentParams& params
   });
 }
 
-void draw(const std::filesystem::path& file, const MapReport& report) {
+void draw_sheet(const std::filesystem::path& file, const MapReport& report) {
   std::vector<results::SheetMap> maps;
   for (const ShownMap& shown : report.maps) maps.push_back({shown.title, shown.caption, &shown.map});
   results::write_png(file, results::map_sheet(maps));
 }
 
 /// Leaves report.txt, report.json, config.yaml and the picture, all or nothing.
-MapReport reproduce_into_folder(const Experiment& experiment, const MapExperimentOptions& o) {
+MapReport reproduce_into_folder(const MapExperiment& experiment, const MapExperimentOptions& o) {
   datasets::StagedFolder folder = results::stage_results(o.out, o.force);
   std::optional<PictureFolder> pictures;
   if (!o.pictures.empty()) pictures.emplace(o.pictures, o.out, folder.path(), o.force);
@@ -68,14 +68,14 @@ MapReport reproduce_into_folder(const Experiment& experiment, const MapExperimen
                           "\n");
   results::write_text(folder.path() / "report.txt", to_text(report));
   results::write_text(folder.path() / "report.json", to_json(report).dump(1) + "\n");
-  if (pictures) draw(pictures->path() / "maps.png", report);
+  if (pictures) draw_sheet(pictures->path() / "maps.png", report);
   Interruptible::check();
   if (pictures) pictures->publish();
   folder.commit();
   return report;
 }
 
-void execute(const Experiment& experiment, const MapExperimentOptions& o) {
+void execute(const MapExperiment& experiment, const MapExperimentOptions& o) {
   const Interruptible interruptible;
   const MapReport report = o.out.empty() ? reproduce(experiment, o.params) : reproduce_into_folder(experiment, o);
   if (o.format.json()) {
@@ -87,7 +87,7 @@ void execute(const Experiment& experiment, const MapExperimentOptions& o) {
   if (!o.pictures.empty()) std::printf("pictures: %s\n", o.pictures.c_str());
 }
 
-void add(CLI::App& reproduce, const Experiment& experiment) {
+void add_experiment(CLI::App& reproduce, const MapExperiment& experiment) {
   CLI::App* command = reproduce.add_subcommand(experiment.name, experiment.what);
   const std::string name = experiment.name;
   command->footer("  credo reproduce " + name + "\n  credo reproduce " + name + " --seeds 1 --out results/" + name +
@@ -110,7 +110,7 @@ void add(CLI::App& reproduce, const Experiment& experiment) {
 }  // namespace
 
 void add_reproduce_maps(CLI::App& reproduce) {
-  for (const Experiment& experiment : kExperiments) add(reproduce, experiment);
+  for (const MapExperiment& experiment : kMapExperiments) add_experiment(reproduce, experiment);
 }
 
 }  // namespace credo::apps

@@ -20,8 +20,6 @@ using grids::CellBox;
 using grids::CellIndex;
 using State = TrueCells::State;
 
-constexpr int kTolerance = 1;  // cells
-
 /// The map that no order changes as a fold, to be looked at in between.
 struct SumFold {
   using Cell = evidence::FixedLogCommonality;
@@ -48,16 +46,6 @@ struct Counted {
   }
   [[nodiscard]] GridMass masses(const Cell& cell) const { return rule.masses(cell.of_rule); }
 };
-
-CellBox box_of(const datasets::OccupancyMap& truth, const grids::Georeference& georeference) {
-  const geometry::Pose2 T_map_truth{truth.origin_x_m, truth.origin_y_m, truth.origin_yaw_rad};
-  CellBox box;
-  for (const int x : {0, truth.width})
-    for (const int y : {0, truth.height})
-      box = box.united(
-          {georeference.cell_at(T_map_truth * Eigen::Vector2d(truth.resolution_m * x, truth.resolution_m * y)), 1, 1});
-  return box;
-}
 
 /// A cell that changed, and how often it had been seen by then.
 struct Watched {
@@ -89,7 +77,7 @@ class Follower {
       if (seen == nullptr || seen->sweeps < 5 || !always_the_same(cell)) return;
       const State real = truths_.back().at(cell);
       if (real == State::kUnknown ||
-          (real == State::kOccupied && !truths_.back().near(cell, State::kEmpty, kTolerance)))
+          (real == State::kOccupied && !truths_.back().near(cell, State::kEmpty, kWallTolerance)))
         return;
       ++score_.unchanged;
       score_.wrong += is_right(cell) ? 0 : 1;
@@ -139,13 +127,13 @@ class Follower {
   [[nodiscard]] bool is_right(CellIndex cell) const {
     const TrueCells& truth = truths_[now_];
     switch (said(cell)) {
-      case State::kOccupied: return truth.near(cell, State::kOccupied, kTolerance);
+      case State::kOccupied: return truth.near(cell, State::kOccupied, kWallTolerance);
       case State::kEmpty: break;
       case State::kUnknown: return false;
     }
     if (truth.at(cell) == State::kEmpty) return true;
-    for (int dy = -kTolerance; dy <= kTolerance; ++dy)
-      for (int dx = -kTolerance; dx <= kTolerance; ++dx)
+    for (int dy = -kWallTolerance; dy <= kWallTolerance; ++dy)
+      for (int dx = -kWallTolerance; dx <= kWallTolerance; ++dx)
         if (said({cell.x + dx, cell.y + dy}) == State::kOccupied) return true;
     return false;
   }

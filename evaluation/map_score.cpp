@@ -19,7 +19,6 @@ using grids::CellBox;
 using grids::CellIndex;
 using State = TrueCells::State;
 
-constexpr int kTolerance = 1;  // cells
 constexpr double kFarthest_m = 0.5;
 
 TrueCells::State state_of(std::int8_t cell) {
@@ -67,7 +66,7 @@ struct Mean {
 bool counts(const TrueCells& truth, CellIndex cell) {
   switch (truth.at(cell)) {
     case State::kEmpty: return true;
-    case State::kOccupied: return truth.near(cell, State::kEmpty, kTolerance);  // not deep inside
+    case State::kOccupied: return truth.near(cell, State::kEmpty, kWallTolerance);  // not deep inside
     case State::kUnknown: break;
   }
   return false;
@@ -79,6 +78,16 @@ bool is_right(State says, State real, bool wall_near, bool says_wall_near) {
 }
 
 }  // namespace
+
+CellBox box_of(const datasets::OccupancyMap& truth, const grids::Georeference& georeference) {
+  const geometry::Pose2 T_map_truth{truth.origin_x_m, truth.origin_y_m, truth.origin_yaw_rad};
+  CellBox box;
+  for (const int x : {0, truth.width})
+    for (const int y : {0, truth.height})
+      box = box.united(
+          {georeference.cell_at(T_map_truth * Eigen::Vector2d(truth.resolution_m * x, truth.resolution_m * y)), 1, 1});
+  return box;
+}
 
 TrueCells::TrueCells(const datasets::OccupancyMap& truth, const grids::Georeference& georeference, const CellBox& box)
     : box_(box), states_(static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height), State::kUnknown) {
@@ -107,14 +116,14 @@ bool TrueCells::near(CellIndex cell, State state, int within) const {
 }
 
 MapScore map_score(const grids::MassMap& map, const datasets::OccupancyMap& truth) {
-  const int margin = kTolerance + static_cast<int>(std::ceil(kFarthest_m / map.georeference.resolution_m));
+  const int margin = kWallTolerance + static_cast<int>(std::ceil(kFarthest_m / map.georeference.resolution_m));
   const TrueCells real(
       truth, map.georeference,
       {{map.box.min.x - margin, map.box.min.y - margin}, map.box.width + 2 * margin, map.box.height + 2 * margin});
   const auto says_wall = [&](CellIndex cell) { return map.saw(cell) && said(map.at(cell)) == State::kOccupied; };
   const auto says_wall_near = [&](CellIndex cell) {
-    for (int dy = -kTolerance; dy <= kTolerance; ++dy)
-      for (int dx = -kTolerance; dx <= kTolerance; ++dx)
+    for (int dy = -kWallTolerance; dy <= kWallTolerance; ++dy)
+      for (int dx = -kWallTolerance; dx <= kWallTolerance; ++dx)
         if (says_wall({cell.x + dx, cell.y + dy})) return true;
     return false;
   };
@@ -127,7 +136,7 @@ MapScore map_score(const grids::MassMap& map, const datasets::OccupancyMap& trut
     const State says = said(mass), is = real.at(cell);
     if (says != State::kUnknown) {
       ++score.decided;
-      score.right += is_right(says, is, real.near(cell, State::kOccupied, kTolerance), says_wall_near(cell));
+      score.right += is_right(says, is, real.near(cell, State::kOccupied, kWallTolerance), says_wall_near(cell));
     }
     conflict.add(mass.conflict);
     ignorance.add(mass.unknown);

@@ -11,6 +11,12 @@
 
 namespace credo::evaluation {
 
+/// Cells that a wall may be off, diagonals included, and still be right.
+inline constexpr int kWallTolerance = 1;
+
+/// All cells of a true map, turned or not.
+[[nodiscard]] grids::CellBox box_of(const datasets::OccupancyMap& truth, const grids::Georeference& georeference);
+
 /// The states of the true cells under a map, at its resolution.
 class TrueCells {
  public:

@@ -23,17 +23,6 @@ using grids::CellIndex;
 using mapping::SonarKnots;
 using State = TrueCells::State;
 
-/// All of a true map, turned or not.
-CellBox box_of(const datasets::OccupancyMap& truth, const grids::Georeference& georeference) {
-  const geometry::Pose2 T_map_truth{truth.origin_x_m, truth.origin_y_m, truth.origin_yaw_rad};
-  CellBox box;
-  for (const int x : {0, truth.width})
-    for (const int y : {0, truth.height})
-      box = box.united(
-          {georeference.cell_at(T_map_truth * Eigen::Vector2d(truth.resolution_m * x, truth.resolution_m * y)), 1, 1});
-  return box;
-}
-
 /// Which cells of a drive are learned from, and how often each weight counts in them.
 class Counts {
  public:
