@@ -98,6 +98,7 @@ void scan_of_361_beams(benchmark::State& state, const Scene& scene) {
   const std::vector<sensors::RangeScan> scans = scans_of(scene, rig.range_finders[0]);
   const auto ours = [&] {
     for (int k = 0; k < kPoses; ++k) mapper.insert(certain(scene.poses[k]), scans[k]);
+    benchmark::DoNotOptimize(mapper.grid());  // the map can be read
   };
 #ifdef CREDO_MRPT
   auto grid = mrpt_grid(scene.width_m, scene.height_m, mapper.grid().georeference().resolution_m);
@@ -216,17 +217,20 @@ void evidence_for_all_cells(benchmark::State& state) {
   grids::EvidentialGrid map = square_map(side);
   const std::size_t numbers = map.tiles().size() * 3 * grids::Tile::kCells;
   std::vector<std::int32_t> to(numbers, -1);
-  const std::vector<evidence::FixedLogCommonality> increments{evidence::fixed_increment({0.9, 0.05, 0.0, 0.05}, 0.01)};
+  mapping::RegionFiller::Increments increments;
+  increments[0].increment = evidence::fixed_increment({0.9, 0.05, 0.0, 0.05}, 0.01);
   const double width = side * grids::Tile::kSide;
   const std::vector<Eigen::Vector2d> square{{0.0, 0.0}, {width, 0.0}, {width, width}, {0.0, width}};
   mapping::RegionFiller filler;
+  mapping::PendingRegions pending;
   const int calls = calls_for(side);
   versus(
       state, calls,
       [&] {
         for (int call = 0; call < calls; ++call) {
           filler.add_contour(square, 0);
-          filler.fill(map, increments);
+          filler.fill(map, pending, increments);
+          pending.settle(map);
         }
       },
       "plain",

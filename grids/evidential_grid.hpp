@@ -75,6 +75,8 @@ class EvidentialGrid {
   /// The tile to write to; made when absent. The reference stays valid until the tile is pruned or the grid dies.
   /// \throws std::length_error if the grid may not hold another tile; so do `add` and `merge`
   [[nodiscard]] Tile& tile(TileIndex index);
+  /// How many tiles it may still be given.
+  [[nodiscard]] std::size_t room() const { return most_tiles_ - tiles_.size(); }
   /// The tile to read from; null when absent.
   [[nodiscard]] const Tile* find_tile(TileIndex index) const;
   /// All tiles, by row and column.

@@ -60,7 +60,7 @@ const FanPainter::Table& FanPainter::table(double reading_m, int level) {
   const std::size_t fine_rows = echo ? static_cast<std::size_t>((reach_m - fine_from_m) / fine_row_m_) + 2 : 0;
 
   const std::size_t rows = wide_rows + fine_rows;
-  forget_tables_before((rows * FanTable::kAngleBins + 1) * sizeof(TableEntry));
+  forget_tables_before((rows * FanTable::kAngleBins + 1) * sizeof(PaddedIncrement));
   table.reading_row = echo ? static_cast<double>(wide_rows) + (reading - fine_from_m) / fine_row_m_ : 0.0;
   table.entries.reserve(rows * FanTable::kAngleBins + 1);
   for (std::size_t row = 0; row < rows; ++row) {

@@ -34,8 +34,8 @@ class FanPainter {
  private:
   /// Increments of one reading at one level.
   struct Table {
-    std::vector<TableEntry> entries;  ///< FanTable::kAngleBins to a row; the last is vacuous
-    double reading_row = 0.0;         ///< where the reading itself is among the fine rows
+    std::vector<PaddedIncrement> entries;  ///< FanTable::kAngleBins to a row; the last is vacuous
+    double reading_row = 0.0;              ///< where the reading itself is among the fine rows
   };
   [[nodiscard]] const Table& table(double reading_m, int level);
   /// Makes room for another table: all are dropped where they would take too much memory, to be made again.

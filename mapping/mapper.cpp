@@ -50,20 +50,26 @@ struct Mapper::State {
   std::vector<FanPainter> fans;       // one for each sonar ring
   std::vector<ScanPainter> scans;     // one for each range finder
   std::vector<PlacedReading> placed;  // of the sweep at hand
+  PendingRegions pending;             // of scans, not in the grid yet
   MappingCounts counts;
 
   /// Maps a reading whose evidence paint(grid, pose) adds: straight into the map, or blurred over the poses that may
   /// be. \returns what paint does, which is the same from all of them
   template <typename Paint>
-  MappingCounts map(const Believed<PoseEstimate>& T_map_base, double farthest_m, const Paint& paint) {
+  MappingCounts map(const Believed<PoseEstimate>& T_map_base, std::span<const float> ranges_m, double range_max_m,
+                    const Paint& paint) {
     require_usable(T_map_base.value);
-    const auto poses = poses_for_blur(T_map_base, farthest_m, params.georeference.resolution_m, params.blur);
+    if (T_map_base.value.covariance.isZero(0.0)) return paint(grid, T_map_base);
+    const auto poses =
+        poses_for_blur(T_map_base, farthest(ranges_m, range_max_m), params.georeference.resolution_m, params.blur);
     if (poses.empty()) return paint(grid, T_map_base);
     EvidenceMean mean;
     MappingCounts seen;
     for (const Believed<PoseEstimate>& pose : poses) {
       EvidentialGrid from_here(params.georeference);
+      pending.settle(grid);
       seen = paint(from_here, pose);
+      pending.settle(from_here);
       mean.add(from_here);
     }
     mean.combine_into(grid);
@@ -79,6 +85,7 @@ Mapper::Mapper(const sensors::Rig& rig, const MapperParams& params)
                                            .fans = {},
                                            .scans = {},
                                            .placed = {},
+                                           .pending = {},
                                            .counts = {}})) {
   for (const sensors::SonarRing& ring : rig.sonar_rings) {
     check(ring);
@@ -110,7 +117,7 @@ void Mapper::insert(const Believed<PoseEstimate>& T_map_base, const sensors::Son
       s.fans[ring].paint(grid, reading.T_map_transducer, reading.range_m, reading.reliability);
     return counts;
   };
-  s.counts += s.map(T_map_base, farthest(sweep.ranges_m, rings[ring].range_max_m), paint);
+  s.counts += s.map(T_map_base, sweep.ranges_m, rings[ring].range_max_m, paint);
 }
 
 void Mapper::insert(const Believed<PoseEstimate>& T_map_base, const sensors::RangeScan& scan,
@@ -127,19 +134,23 @@ void Mapper::insert(const Believed<PoseEstimate>& T_map_base, const sensors::Ran
     const PoseReliability reliability(pose, s.params.georeference.resolution_m, s.params.pose, trust);
     if (reliability.maps_nothing()) return MappingCounts{.scans = 1, .refused = 1};
     const ScanPainter::Counts seen =
-        s.scans[finder].paint(grid, pose.value.pose, reliability, scan.ranges_m, path, scan.time);
+        s.scans[finder].paint(grid, s.pending, pose.value.pose, reliability, scan.ranges_m, path, scan.time);
     return MappingCounts{.scans = 1,
                          .echoes = seen.echoes,
                          .no_returns = seen.no_returns,
                          .missing = seen.missing,
                          .out_of_range = seen.out_of_range};
   };
-  s.counts += s.map(T_map_base, farthest(scan.ranges_m, finders[finder].range_max_m), paint);
+  s.counts += s.map(T_map_base, scan.ranges_m, finders[finder].range_max_m, paint);
 }
 
-const grids::EvidentialGrid& Mapper::grid() const { return state_->grid; }
+const grids::EvidentialGrid& Mapper::grid() const {
+  state_->pending.settle(state_->grid);
+  return state_->grid;
+}
 
 grids::EvidentialGrid Mapper::take_grid() {
+  state_->pending.settle(state_->grid);
   return std::exchange(state_->grid, EvidentialGrid(state_->params.georeference));
 }
 

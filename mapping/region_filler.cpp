@@ -14,23 +14,17 @@
 
 namespace credo::mapping {
 
-using evidence::FixedLogCommonality;
-
 namespace {
 
-/// Rows that fill a tile from side to side follow one another in its arrays: they become one stretch.
-void append(std::vector<Stretch>& stretches, int place, int count, int region_class) {
-  if (count == grids::Tile::kSide && !stretches.empty()) {
-    Stretch& last = stretches.back();
-    if (last.place + last.count == place && last.region_class == region_class) {
-      last.count = static_cast<std::int16_t>(last.count + count);
-      return;
-    }
-  }
-  stretches.push_back({static_cast<std::int16_t>(place), static_cast<std::int16_t>(count), region_class});
-}
+[[gnu::always_inline]] inline double middle(double a, double b) { return 0.5 * (a + b); }
 
 }  // namespace
+
+/// What an edge changes.
+Quad RegionFiller::change_of(const Passage& passage, const Increments& increments) {
+  return increments[static_cast<std::size_t>(passage.enter)].quad() -
+         increments[static_cast<std::size_t>(passage.leave)].quad();
+}
 
 /// How often the chains of each class wind around the place between two crossings.
 struct RegionFiller::Winding {
@@ -85,95 +79,102 @@ void RegionFiller::add_contour(std::span<const Eigen::Vector2d> corners, int reg
   end_chain({.left = region_class});
 }
 
-/// The rows and columns of all edges, without a branch, so that it is done many at a time. Between the chains there are
+/// The columns and rows of all edges, without a branch, so that it is done many at a time. Between the chains there are
 /// edges which are none.
 void RegionFiller::measure() {
   const std::size_t count = x_.size();
-  rows_.resize(count);
+  columns_.resize(count);
   slopes_.resize(count);
-  first_columns_.resize(count);
+  first_rows_.resize(count);
   const double *x = x_.data(), *y = y_.data();
-  std::int32_t* const rows = rows_.data();
+  std::int32_t* const columns = columns_.data();
   double* const slopes = slopes_.data();
-  std::int32_t* const columns = first_columns_.data();
+  std::int32_t* const rows = first_rows_.data();
   grids::run_with(
-      grids::best_instructions(), [ this, count, x, y, rows, slopes, columns ]() __attribute__((always_inline)) {
+      grids::best_instructions(), [ this, count, x, y, columns, slopes, rows ]() __attribute__((always_inline)) {
         constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min(),
                                kMost = std::numeric_limits<std::int32_t>::max();
         std::int32_t low_row = kMost, high_row = kLeast, low_column = kMost, high_column = kLeast;
         for (std::size_t i = 0; i < count; ++i) {
           const std::int32_t column = first_centre(x[i]), row = first_centre(y[i]);
-          rows[i] = row;
+          columns[i] = column;
           low_row = std::min(low_row, row);
           high_row = std::max(high_row, row);
           low_column = std::min(low_column, column);
           high_column = std::max(high_column, column);
         }
-        first_row_ = low_row;
-        last_row_ = high_row;
-        first_tile_column_ = (low_column - 1) >> grids::Tile::kShift;  // crossings may be rounded beyond the corners
-        last_tile_column_ = (high_column + 1) >> grids::Tile::kShift;
+        first_column_ = low_column;
+        last_column_ = high_column;
+        constexpr int kShift = grids::Tile::kShift;  // crossings may be rounded beyond the corners
+        tiles_ = {{(low_row - 1) >> kShift, low_column >> kShift}, {(high_row + 1) >> kShift, high_column >> kShift}};
         for (std::size_t i = 0; i + 1 < count; ++i) {
-          const bool up = rows[i] < rows[i + 1];  // both directions of an edge must cross a row at the same place
-          const double low_x = up ? x[i] : x[i + 1], high_x = up ? x[i + 1] : x[i];
-          const double low_y = up ? y[i] : y[i + 1], high_y = up ? y[i + 1] : y[i];
-          const std::int32_t row = std::min(rows[i], rows[i + 1]);
-          const double slope = rows[i] != rows[i + 1] ? (high_x - low_x) / (high_y - low_y) : 0.0;
+          const bool right = columns[i] < columns[i + 1];  // both directions must cross a column at the same place
+          const double left_x = right ? x[i] : x[i + 1], right_x = right ? x[i + 1] : x[i];
+          const double left_y = right ? y[i] : y[i + 1], right_y = right ? y[i + 1] : y[i];
+          const double centre = std::min(columns[i], columns[i + 1]) + 0.5;
+          const double slope = columns[i] != columns[i + 1] ? (right_y - left_y) / (right_x - left_x) : 0.0;
           slopes[i] = slope;
-          columns[i] = first_centre(low_x + (row + 0.5 - low_y) * slope);
+          rows[i] = first_centre(centre < middle(left_x, right_x) ? left_y + (centre - left_x) * slope
+                                                                  : right_y - (right_x - centre) * slope);
         }
       });
 }
 
-/// The edges that cross rows; most scans have many corners to a row.
-std::span<const RegionFiller::Edge> RegionFiller::select_edges() {
+/// Where an edge crosses a column, reckoned from its nearer end: edges that meet in a corner come there in their order,
+/// even if it is the centre of a cell.
+std::int32_t RegionFiller::row_at(std::size_t edge, std::int32_t column) const {
+  const std::size_t left = edge + (columns_[edge] < columns_[edge + 1] ? 0 : 1), right = 2 * edge + 1 - left;
+  const double centre = column + 0.5;
+  return first_centre(centre < middle(x_[left], x_[right]) ? y_[left] + (centre - x_[left]) * slopes_[edge]
+                                                           : y_[right] - (x_[right] - centre) * slopes_[edge]);
+}
+
+std::span<RegionFiller::Edge> RegionFiller::select_edges() {
   if (edges_.size() < x_.size()) edges_.resize(x_.size());
   std::size_t count = 0;
   for (const Chain& chain : chains_) {
     const auto left = static_cast<std::int16_t>(chain.sides.left), right = static_cast<std::int16_t>(chain.sides.right);
-    const Passage up{left, right}, down{right, left};
+    const Passage rightwards{right, left}, leftwards{left, right};
     for (std::size_t i = chain.begin; i + 1 < chain.end; ++i) {
-      edges_[count] = {static_cast<std::uint32_t>(i), rows_[i] < rows_[i + 1] ? up : down};
-      count += rows_[i] != rows_[i + 1];
+      edges_[count] = {static_cast<std::uint32_t>(i), columns_[i] < columns_[i + 1] ? rightwards : leftwards};
+      count += columns_[i] != columns_[i + 1];
     }
   }
   return std::span(edges_).first(count);
 }
 
-/// Crossings of all rows: counted first, then put where they belong.
-void RegionFiller::cross_rows(std::span<const Edge> edges) {
-  row_end_.assign(static_cast<std::size_t>(last_row_ - first_row_) + 1, 0);
+/// Crossings of all columns: counted first, then put where they belong.
+void RegionFiller::cross_columns(std::span<const Edge> edges) {
+  column_end_.assign(static_cast<std::size_t>(last_column_ - first_column_) + 1, 0);
   for (const Edge& edge : edges) {
-    const auto [low, high] = std::minmax(rows_[edge.from], rows_[edge.from + 1]);
-    ++row_end_[low - first_row_];
-    --row_end_[high - first_row_];
+    const auto [low, high] = std::minmax(columns_[edge.from], columns_[edge.from + 1]);
+    ++column_end_[low - first_column_];
+    --column_end_[high - first_column_];
   }
-  std::uint32_t in_row = 0, total = 0;
-  for (std::uint32_t& end : row_end_) {
-    in_row += end;
-    end = total;  // where the row begins; it moves on to the end with every crossing
-    total += in_row;
+  std::uint32_t in_column = 0, total = 0;
+  for (std::uint32_t& end : column_end_) {
+    in_column += end;
+    end = total;  // where the column begins; it moves on to the end with every crossing
+    total += in_column;
   }
   crossings_.resize(total);
   for (const Edge& edge : edges) {
-    const bool up = rows_[edge.from] < rows_[edge.from + 1];
-    const std::size_t low = edge.from + (up ? 0 : 1), high = edge.from + (up ? 1 : 0);
-    Crossing crossing{first_columns_[edge.from], edge.passage};
-    std::int32_t row = rows_[low];
-    crossings_[row_end_[row - first_row_]++] = crossing;
-    while (++row < rows_[high]) {
-      crossing.column = first_centre(x_[low] + (row + 0.5 - y_[low]) * slopes_[edge.from]);
-      crossings_[row_end_[row - first_row_]++] = crossing;
+    const auto [first, last] = std::minmax(columns_[edge.from], columns_[edge.from + 1]);
+    Crossing crossing{first_rows_[edge.from], edge.passage};
+    crossings_[column_end_[first - first_column_]++] = crossing;
+    for (std::int32_t column = first + 1; column < last; ++column) {
+      crossing.row = row_at(edge.from, column);
+      crossings_[column_end_[column - first_column_]++] = crossing;
     }
   }
 }
 
-/// Rows hold a few crossings, in nearly the right order: insertion sort.
+/// Columns hold a few crossings, in nearly the right order: insertion sort.
 void RegionFiller::sort(std::span<Crossing> crossings) {
   for (std::size_t i = 1; i < crossings.size(); ++i) {
     const Crossing crossing = crossings[i];
     std::size_t place = i;
-    for (; place > 0 && crossing.column < crossings[place - 1].column; --place) crossings[place] = crossings[place - 1];
+    for (; place > 0 && crossing.row < crossings[place - 1].row; --place) crossings[place] = crossings[place - 1];
     crossings[place] = crossing;
   }
 }
@@ -194,52 +195,63 @@ void RegionFiller::resolve(std::span<Crossing> crossings) {
   }
 }
 
-/// Finds the stretches of one class in a row.
-void RegionFiller::find_stretches(std::int32_t row, std::span<Crossing> crossings) {
+/// Adds what changes along a column.
+void RegionFiller::add_column(std::int32_t column, std::span<Crossing> crossings, PendingRegions& pending,
+                              const Increments& increments) {
   sort(crossings);
   resolve(crossings);
-  const int row_place = grids::place_in_tile({0, row});
-  std::vector<Stretch>* const of_tile = stretches_.data();
-  const std::int32_t first_tile = first_tile_column_;
-  for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
-    const int region_class = crossings[i].passage.enter;
-    if (region_class == kOutside) continue;
-    std::int32_t begin = crossings[i].column;
-    const std::int32_t end = crossings[i + 1].column;
-    for (std::int32_t tile = begin >> grids::Tile::kShift; begin < end; ++tile) {
-      const std::int32_t stop = std::min(end, (tile + 1) << grids::Tile::kShift);
-      append(of_tile[tile - first_tile], row_place | (begin & (grids::Tile::kSide - 1)), stop - begin, region_class);
-      begin = stop;
-    }
+  Quad here{};
+  for (const Crossing& crossing : crossings) {
+    const Quad above = increments[static_cast<std::size_t>(crossing.passage.enter)].quad();
+    pending.change(column, crossing.row, above - here);
+    here = above;
   }
 }
 
-/// Adds the stretches of a row of tiles, tile by tile, and forgets them.
-void RegionFiller::add_stretches(grids::EvidentialGrid& grid, std::int32_t tile_row,
-                                 std::span<const FixedLogCommonality> increments) {
-  for (std::size_t i = 0; i < stretches_.size(); ++i) {
-    if (stretches_[i].empty()) continue;
-    add_by_class(grid.tile({tile_row, first_tile_column_ + static_cast<std::int32_t>(i)}), stretches_[i], increments);
-    stretches_[i].clear();
+void RegionFiller::fill_overlapping(PendingRegions& pending, const Increments& increments) {
+  cross_columns(select_edges());
+  std::uint32_t begin = 0;
+  for (std::int32_t column = first_column_; column < last_column_; ++column) {
+    const std::uint32_t end = column_end_[column - first_column_];
+    add_column(column, std::span(crossings_).subspan(begin, end - begin), pending, increments);
+    begin = end;
   }
 }
 
-void RegionFiller::fill(grids::EvidentialGrid& grid, std::span<const FixedLogCommonality> increments) {
+/// Where no region overlaps another the order of the crossings does not matter.
+void RegionFiller::fill_apart(PendingRegions& pending, const Increments& increments) {
+  std::size_t wide = 0;
+  const std::span<Edge> edges = select_edges();
+  for (const Edge& edge : edges) {  // most cross one column: those that cross more are put first
+    const auto [first, last] = std::minmax(columns_[edge.from], columns_[edge.from + 1]);
+    pending.change(first, first_rows_[edge.from], change_of(edge.passage, increments));
+    edges[wide] = edge;
+    wide += last - first > 1;
+  }
+  for (const Edge& edge : edges.first(wide)) {
+    const std::size_t i = edge.from, left = i + (columns_[i] < columns_[i + 1] ? 0 : 1), right = 2 * i + 1 - left;
+    const double left_x = x_[left], left_y = y_[left], right_x = x_[right], right_y = y_[right], slope = slopes_[i];
+    const Quad change = change_of(edge.passage, increments);
+    const std::int32_t last = columns_[right], half = std::min(last, first_centre(middle(left_x, right_x)));
+    std::int32_t column = columns_[left] + 1;
+    for (; column < half; ++column)
+      pending.change(column, first_centre(left_y + (column + 0.5 - left_x) * slope), change);
+    for (; column < last; ++column)
+      pending.change(column, first_centre(right_y - (right_x - (column + 0.5)) * slope), change);
+  }
+}
+
+void RegionFiller::fill(grids::EvidentialGrid& grid, PendingRegions& pending, const Increments& increments,
+                        Regions regions) {
   if (x_.empty()) return;
   measure();
-  cross_rows(select_edges());
-
-  for (std::vector<Stretch>& of_tile : stretches_) of_tile.clear();
-  stretches_.resize(static_cast<std::size_t>(last_tile_column_ - first_tile_column_) + 1);
-  std::uint32_t begin = 0;
-  for (std::int32_t row = first_row_; row < last_row_; ++row) {
-    const std::uint32_t end = row_end_[row - first_row_];
-    find_stretches(row, std::span(crossings_).subspan(begin, end - begin));
-    begin = end;
-    const std::int32_t tile_row = row >> grids::Tile::kShift;
-    if (row + 1 == last_row_ || (row + 1) >> grids::Tile::kShift != tile_row) add_stretches(grid, tile_row, increments);
-  }
+  pending.begin_set(grid, tiles_);
+  if (regions == Regions::kApart)
+    fill_apart(pending, increments);
+  else
+    fill_overlapping(pending, increments);
   clear();
+  pending.end_set(grid);
 }
 
 }  // namespace credo::mapping

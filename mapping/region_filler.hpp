@@ -4,22 +4,26 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "grids/evidential_grid.hpp"
-#include "mapping/cell_kernels.hpp"
+#include "mapping/pending_regions.hpp"
 
 namespace credo::mapping {
 
-/// Adds evidence to all cells whose centres lie in regions of the plane, row by row. A region is a class, given by the
-/// chains of corners that bound it; a cell is inside if they wind around it. Where regions overlap the higher class
-/// counts: every cell is updated once.
+/// Adds evidence to all cells whose centres lie in regions of the plane, column by column. A region is a class, given
+/// by the chains of corners that bound it; a cell is inside if they wind around it. Where regions overlap the higher
+/// class counts: every cell is updated once.
 class RegionFiller {
  public:
   static constexpr int kClasses = 64;
   static constexpr int kOutside = kClasses;  ///< what lies beside a chain that bounds one region only
+
+  /// Of the classes, and nothing for what is outside.
+  using Increments = std::array<PaddedIncrement, kClasses + 1>;
 
   /// The classes to the left and to the right of a chain, seen along it.
   struct Sides {
@@ -45,53 +49,62 @@ class RegionFiller {
   /// A closed chain around a class: the last corner is joined to the first.
   void add_contour(std::span<const Eigen::Vector2d> corners, int region_class);
 
-  /// Adds increments[class] to every cell inside, then forgets the chains.
-  /// \throws std::length_error if the grid may not grow as far; a part of the cells may have been filled.
-  void fill(grids::EvidentialGrid& grid, std::span<const evidence::FixedLogCommonality> increments);
+  /// What is known of the regions.
+  enum class Regions {
+    kMayOverlap,
+    kApart  ///< every place is in one at most, and chains meet in common corners only: nothing need be sorted
+  };
+
+  /// Adds increments[class] to every cell inside, then forgets the chains. The grid has it once `pending` is settled.
+  /// \throws std::length_error if the grid may not grow as far; it is unchanged then
+  void fill(grids::EvidentialGrid& grid, PendingRegions& pending, const Increments& increments,
+            Regions regions = Regions::kMayOverlap);
 
  private:
   struct Chain {
     std::size_t begin, end;  ///< of its corners
     Sides sides;
   };
-  /// From left to right across an edge: the class before it and the one behind it.
+  /// Upwards across an edge: the class below it and the one above.
   struct Passage {
     std::int16_t leave, enter;
   };
-  /// An edge that crosses rows: from corner `from` to the next.
+  /// An edge that crosses columns: from corner `from` to the next.
   struct Edge {
     std::uint32_t from;
     Passage passage;
   };
-  /// Where a row crosses an edge.
+  /// Where a column crosses an edge.
   struct Crossing {
-    std::int32_t column;  ///< the first cell whose centre is not left of the edge
+    std::int32_t row;  ///< the first cell whose centre is not below the edge
     Passage passage;
   };
   struct Winding;
 
+  [[nodiscard, gnu::always_inline]] static inline Quad change_of(const Passage& passage, const Increments& increments);
   void measure();
-  [[nodiscard]] std::span<const Edge> select_edges();
-  void cross_rows(std::span<const Edge> edges);
+  [[nodiscard, gnu::always_inline]] inline std::int32_t row_at(std::size_t edge, std::int32_t column) const;
+  [[nodiscard]] std::span<Edge> select_edges();
+  void cross_columns(std::span<const Edge> edges);
   [[gnu::always_inline]] static inline void sort(std::span<Crossing> crossings);
   [[gnu::always_inline]] static inline void resolve(std::span<Crossing> crossings);
-  void find_stretches(std::int32_t row, std::span<Crossing> crossings);
-  void add_stretches(grids::EvidentialGrid& grid, std::int32_t tile_row,
-                     std::span<const evidence::FixedLogCommonality> increments);
+  static void add_column(std::int32_t column, std::span<Crossing> crossings, PendingRegions& pending,
+                         const Increments& increments);
+  void fill_overlapping(PendingRegions& pending, const Increments& increments);
+  void fill_apart(PendingRegions& pending, const Increments& increments);
 
   std::vector<double> x_, y_;  // the corners
   std::vector<Chain> chains_;
   std::size_t chain_begin_ = 0;
 
-  std::vector<std::int32_t> rows_;             // first_centre of the heights of the corners
-  std::vector<double> slopes_;                 // of the edges that begin there, along a row for each row
-  std::vector<std::int32_t> first_columns_;    // and where they cross their lowest row
-  std::int32_t first_row_ = 0, last_row_ = 0;  // of all corners
-  std::int32_t first_tile_column_ = 0, last_tile_column_ = 0;
+  std::vector<std::int32_t> columns_;                // first_centre of the corners along x
+  std::vector<double> slopes_;                       // of the edges that begin there, up a column for each column
+  std::vector<std::int32_t> first_rows_;             // and where they cross their first column
+  std::int32_t first_column_ = 0, last_column_ = 0;  // of all corners
+  PendingRegions::TileBox tiles_;                    // that they are in
   std::vector<Edge> edges_;
-  std::vector<Crossing> crossings_;  // by row
-  std::vector<std::uint32_t> row_end_;
-  std::vector<std::vector<Stretch>> stretches_;  // of a row of tiles, by their column
+  std::vector<Crossing> crossings_;  // by column
+  std::vector<std::uint32_t> column_end_;
 };
 
 }  // namespace credo::mapping

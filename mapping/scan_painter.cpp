@@ -21,6 +21,10 @@ namespace {
 using geometry::Pose2;
 
 constexpr int kPathKnots = 16;  // poses along a scan, between which the motion is taken as even
+// What is closer may change its order by rounding.
+constexpr double kLeastAngle = 1e-4;  // [rad]
+constexpr double kLeastCells = 1e-3;
+constexpr double kRounding = 1e-9;
 constexpr double kWallHalfCells =
     0.55;  // to either side of a surface: half a cell, and a bit for one on a border of cells
 
@@ -68,6 +72,7 @@ ScanPainter::ScanPainter(const sensors::RangeFinder& range_finder, const grids::
   check(range_finder, georeference, params);
   const double half = 0.5 * std::abs(range_finder.angle_increment_rad);
   touching_ = half <= params.max_half_sector_rad;
+  all_round_ = touching_ && std::abs(2.0 * half * range_finder.count - 2.0 * std::numbers::pi) < kRounding;
   const double half_sector_rad =
       std::copysign(std::min(half, params.max_half_sector_rad), range_finder.angle_increment_rad);
   half_sector_cos_ = std::cos(half_sector_rad);
@@ -79,8 +84,8 @@ ScanPainter::ScanPainter(const sensors::RangeFinder& range_finder, const grids::
     sensor_y_.push_back(std::sin(angle));
   }
   for (int level = 1; level <= kLevels; ++level) {
-    increments_[level - 1] = tables_.free[level];
-    increments_[kLevels + level - 1] = tables_.hit[level];
+    increments_[level - 1].increment = tables_.free[level];
+    increments_[kLevels + level - 1].increment = tables_.hit[level];
   }
   const auto count = static_cast<std::size_t>(range_finder.count);
   for (std::vector<double>* values :
@@ -174,7 +179,8 @@ double ScanPainter::place(const Pose2& T_map_base, const sensors::MotionPath& pa
   };
   const Pose2 here = T_map_base * range_finder_.T_base_sensor;
   const int count = range_finder_.count;
-  if (path.empty() || range_finder_.scan_time_s == 0.0) {
+  moving_ = !path.empty() && range_finder_.scan_time_s != 0.0;
+  if (!moving_) {
     set_pose(0, static_cast<std::size_t>(count), here);
     return 0.0;
   }
@@ -257,10 +263,14 @@ void ScanPainter::measure(Outline& outline) const {
       });
 }
 
-/// Where an outline meets a side of a beam's sector. \param turn  1: the last side in the order of the beams, -1: the
-/// first
-ScanPainter::Point ScanPainter::side(std::size_t beam, const Outline& outline, double turn) const {
-  const double length = outline.length_m[beam] * cells_per_metre_;
+/// Whether a sector begins where the one before it ends. The first of a sensor that moves begins elsewhere.
+bool ScanPainter::shares_first_side(std::size_t beam) const {
+  return sine_before_[beam] > 0.0 || (touching_ && (beam > 0 || (all_round_ && !moving_)));
+}
+
+/// A place on a side of a beam's sector. \param turn  1: the last side in the order of the beams, -1: the first
+ScanPainter::Point ScanPainter::side(std::size_t beam, double length_m, double turn) const {
+  const double length = length_m * cells_per_metre_;
   const double c = half_sector_cos_, s = turn * half_sector_sin_;
   return {origin_x_[beam] + length * (c * direction_x_[beam] - s * direction_y_[beam]),
           origin_y_[beam] + length * (s * direction_x_[beam] + c * direction_y_[beam])};
@@ -270,25 +280,14 @@ ScanPainter::Point ScanPainter::side(std::size_t beam, const Outline& outline, d
 ScanPainter::Point ScanPainter::end(std::size_t beam, const Outline& outline) const {
   if (sine_after_[beam] > 0.0)
     return {0.5 * (outline.x[beam] + outline.x[beam + 1]), 0.5 * (outline.y[beam] + outline.y[beam + 1])};
-  return side(beam, outline, 1.0);
+  return side(beam, outline.length_m[beam], 1.0);
 }
 
-/// Where it enters it.
+/// Where it enters it. Sectors that touch have their side in common, to the last digit.
 ScanPainter::Point ScanPainter::start(std::size_t beam, const Outline& outline) const {
-  return sine_before_[beam] > 0.0 ? end(beam - 1, outline) : side(beam, outline, -1.0);
-}
-
-/// Whether the occupied part of beams begins where their free part ends: one outline will do then.
-bool ScanPainter::near_is_end_of_free(std::size_t first, std::size_t last) const {
-  const std::size_t begin = first - (sine_before_[first] > 0.0 ? 1 : 0);  // the neighbours that it is joined with too
-  const std::size_t end = last + (sine_after_[last] > 0.0 ? 2 : 1);
-  return std::equal(near_.length_m.begin() + begin, near_.length_m.begin() + end, free_.length_m.begin() + begin);
-}
-
-/// Whether the free parts of a beam and of the next make one region.
-bool ScanPainter::free_goes_on(std::size_t beam) const {
-  return beam + 1 < free_class_.size() && free_class_[beam] == free_class_[beam + 1] &&
-         (touching_ || sine_after_[beam] > 0.0);
+  if (sine_before_[beam] > 0.0) return end(beam - 1, outline);
+  if (shares_first_side(beam)) return side(before(beam), outline.length_m[beam], 1.0);
+  return side(beam, outline.length_m[beam], -1.0);
 }
 
 void ScanPainter::add_outline(const Outline& outline, std::size_t first, std::size_t last, RegionFiller::Sides sides) {
@@ -296,37 +295,128 @@ void ScanPainter::add_outline(const Outline& outline, std::size_t first, std::si
   filler_.add_corners(std::span(outline.x).subspan(first, last - first + 1),
                       std::span(outline.y).subspan(first, last - first + 1));
   filler_.add_corner(end(last, outline));
-  filler_.end_chain(sides);
+  filler_.end_chain(seen_outwards(sides));
+}
+
+/// Seen from the sensor the next beams are to the left, unless they are taken clockwise.
+RegionFiller::Sides ScanPainter::seen_outwards(RegionFiller::Sides sides) const {
+  return half_sector_sin_ > 0.0 ? sides : RegionFiller::Sides{.left = sides.right, .right = sides.left};
+}
+
+/// What lies along a side of a beam's sector, from the sensor outwards.
+struct ScanPainter::Layers {
+  int free = RegionFiller::kOutside, hit = RegionFiller::kOutside;
+  double free_m = 0.0, near_m = 0.0, far_m = 0.0;
+
+  [[nodiscard]] int at(double length_m) const {
+    if (length_m < free_m) return free;
+    return near_m <= length_m && length_m < far_m ? hit : RegionFiller::kOutside;
+  }
+  /// The next border, infinite after the last.
+  [[nodiscard]] double after(double length_m) const {
+    for (const double border : {free_m, near_m, far_m})
+      if (border > length_m) return border;
+    return std::numeric_limits<double>::infinity();
+  }
+};
+
+ScanPainter::Layers ScanPainter::layers(std::size_t beam) const {
+  Layers result;
+  if (free_class_[beam] >= 0) {
+    result.free = free_class_[beam];
+    result.free_m = free_.length_m[beam];
+  }
+  if (hit_class_[beam] >= 0) {
+    result.hit = hit_class_[beam];
+    result.near_m = near_.length_m[beam];
+    result.far_m = far_.length_m[beam];
+  }
+  return result;
+}
+
+/// The side between two sectors, or beside one: bounds what differs to either side of it.
+/// \param place  of a length along it
+template <typename Place>
+void ScanPainter::add_side(const Point& sensor, const Layers& before, const Layers& after, const Place& place) {
+  Point from = sensor;
+  for (double length_m = 0.0;;) {
+    const double next_m = std::min(before.after(length_m), after.after(length_m));
+    if (next_m == std::numeric_limits<double>::infinity()) return;
+    const Point to = place(next_m);
+    const int left = after.at(length_m), right = before.at(length_m);
+    if (left != right) filler_.add_edge(from, to, seen_outwards({.left = left, .right = right}));
+    from = to;
+    length_m = next_m;
+  }
+}
+
+/// The side between beams that hit one surface but are trusted differently.
+void ScanPainter::add_joint(std::size_t beam) {
+  const Layers before = layers(beam), after = layers(beam + 1);
+  if (before.free != after.free)
+    filler_.add_edge(origin(beam), end(beam, free_), seen_outwards({.left = after.free, .right = before.free}));
+  if (before.hit != after.hit)
+    filler_.add_edge(end(beam, near()), end(beam, far_), seen_outwards({.left = after.hit, .right = before.hit}));
+}
+
+/// The sides after a beam: its own and that of the next, which may be one.
+void ScanPainter::add_sides_after(std::size_t beam) {
+  const std::size_t next = beam + 1 < range_m_.size() ? beam + 1 : 0;
+  const auto on_last_side = [&](double length_m) { return side(beam, length_m, 1.0); };
+  const auto on_first_side = [&](double length_m) { return side(next, length_m, -1.0); };
+  if (sine_after_[beam] > 0.0) return add_joint(beam);
+  if (shares_first_side(next)) return add_side(origin(beam), layers(beam), layers(next), on_last_side);
+  add_side(origin(beam), layers(beam), {}, on_last_side);
+  add_side(origin(next), {}, layers(next), on_first_side);
+}
+
+/// Common sides begin where the sensor was for the first of the two: between its places free regions are open.
+void ScanPainter::add_ways_of_sensor() {
+  for (std::size_t beam = 0; beam < range_m_.size(); ++beam)
+    if (free_class_[beam] >= 0 && shares_first_side(beam))
+      filler_.add_edge(origin(beam), origin(before(beam)), seen_outwards({.left = free_class_[beam]}));
 }
 
 /// What is free and what is occupied, surface by surface: the beams that hit one, or a single one.
 void ScanPainter::add_contours() {
-  Point free_from;  // where the free region at hand begins
   for (std::size_t first = 0, last = 0; first < range_m_.size(); first = last + 1) {
     const int free = free_class_[first], hit = hit_class_[first];
     last = first;
     while (sine_after_[last] > 0.0 && free_class_[last + 1] == free && hit_class_[last + 1] == hit) ++last;
-    const bool one_outline = free >= 0 && hit >= 0 && near_is_end_of_free(first, last);
-    if (free >= 0) {
-      const bool goes_on = first > 0 && free_goes_on(first - 1);
-      if (!goes_on) free_from = origin(first);
-      filler_.add_edge(goes_on ? end(first - 1, free_) : free_from, start(first, free_), {.left = free});
-      add_outline(free_, first, last, {.left = free, .right = one_outline ? hit : RegionFiller::kOutside});
-      if (!free_goes_on(last)) {
-        filler_.add_edge(end(last, free_), origin(last), {.left = free});
-        filler_.add_edge(origin(last), free_from, {.left = free});
-      }
-    }
+    const bool one_outline = free >= 0 && hit >= 0 && near_is_end_of_free_;
+    if (free >= 0) add_outline(free_, first, last, {.left = free, .right = one_outline ? hit : RegionFiller::kOutside});
     if (hit >= 0) {
-      if (!one_outline) add_outline(near_, first, last, {.right = hit});
+      if (!one_outline) add_outline(near(), first, last, {.right = hit});
       add_outline(far_, first, last, {.left = hit});
-      filler_.add_edge(end(last, far_), end(last, near_), {.left = hit});
-      filler_.add_edge(start(first, near_), start(first, far_), {.left = hit});
     }
+    add_sides_after(last);
   }
+  if (moving_) add_ways_of_sensor();
 }
 
-ScanPainter::Counts ScanPainter::paint(grids::EvidentialGrid& grid, const Pose2& T_map_base,
+/// How the outlines lie to each other: whether the occupied part begins as the free one ends, so that one outline will
+/// do for both, and whether all regions lie side by side around one place, with outlines that are the same or apart.
+void ScanPainter::compare_outlines() {
+  const double least_m = kLeastCells * georeference_.resolution_m;
+  int between = 0, close = 0;
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
+        for (std::size_t i = 0; i < range_m_.size(); ++i) {
+          const double free_m = free_.length_m[i], near_m = near_.length_m[i], far_m = far_.length_m[i];
+          const bool hit = hit_class_[i] >= 0;
+          const bool apart = ((near_m == free_m) | (near_m - free_m >= least_m)) & (far_m - near_m >= least_m);
+          between += hit & (near_m != free_m);
+          close += ((free_m > 0.0) & (free_m < least_m)) | (hit & !apart);
+        }
+      });
+  near_is_end_of_free_ = between == 0;
+  const double increment = std::abs(range_finder_.angle_increment_rad), around = increment * range_finder_.count;
+  const bool sides_apart =
+      increment > kLeastAngle && (touching_ || increment - 2.0 * params_.max_half_sector_rad > kLeastAngle);
+  apart_ = !moving_ && sides_apart && around <= 2.0 * std::numbers::pi + kRounding && close == 0;
+}
+
+ScanPainter::Counts ScanPainter::paint(grids::EvidentialGrid& grid, PendingRegions& pending, const Pose2& T_map_base,
                                        const PoseReliability& reliability, std::span<const float> ranges_m,
                                        const sensors::MotionPath& path, sensors::Timestamp time) {
   if (ranges_m.size() != range_m_.size())
@@ -344,10 +434,13 @@ ScanPainter::Counts ScanPainter::paint(grids::EvidentialGrid& grid, const Pose2&
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach_m + 2.0 * georeference_.resolution_m);
   static_cast<void>(georeference_.cell_at(here - margin));
   static_cast<void>(georeference_.cell_at(here + margin));
-  for (Outline* outline : {&free_, &near_, &far_}) measure(*outline);
+  compare_outlines();
+  measure(free_);
+  measure(far_);
+  if (!near_is_end_of_free_) measure(near_);
   filler_.clear();
   add_contours();
-  filler_.fill(grid, increments_);
+  filler_.fill(grid, pending, increments_, apart_ ? RegionFiller::Regions::kApart : RegionFiller::Regions::kMayOverlap);
   return counts;
 }
 

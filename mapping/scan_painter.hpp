@@ -62,11 +62,13 @@ class ScanPainter {
     int echoes = 0, no_returns = 0, missing = 0, out_of_range = 0;
   };
 
+  /// The grid has the scan once `pending` is settled.
   /// \param T_map_base  at `time`; `path` carries it to when each beam was taken
   /// \param ranges_m    one for each beam
   /// \throws std::out_of_range if the pose is too far away to be addressed; the grid is unchanged then.
-  Counts paint(grids::EvidentialGrid& grid, const geometry::Pose2& T_map_base, const PoseReliability& reliability,
-               std::span<const float> ranges_m, const sensors::MotionPath& path, sensors::Timestamp time);
+  Counts paint(grids::EvidentialGrid& grid, PendingRegions& pending, const geometry::Pose2& T_map_base,
+               const PoseReliability& reliability, std::span<const float> ranges_m, const sensors::MotionPath& path,
+               sensors::Timestamp time);
 
  private:
   /// A line over the ends of the beams: of their free part, or the near or the far side of the occupied one.
@@ -74,6 +76,7 @@ class ScanPainter {
     std::vector<double> length_m;  ///< of each beam up to it
     std::vector<double> x, y;      ///< where the beams meet it, in cells
   };
+  struct Layers;
   using Point = RegionFiller::Corner;
 
   Counts classify(std::span<const float> ranges_m, const PoseReliability& reliability);
@@ -83,13 +86,22 @@ class ScanPainter {
   void join();
   void widen();
   void measure(Outline& outline) const;
+  void compare_outlines();
+  [[nodiscard]] const Outline& near() const { return near_is_end_of_free_ ? free_ : near_; }
   [[nodiscard]] Point origin(std::size_t beam) const { return {origin_x_[beam], origin_y_[beam]}; }
-  [[nodiscard]] Point side(std::size_t beam, const Outline& outline, double turn) const;
+  [[nodiscard]] std::size_t before(std::size_t beam) const { return beam > 0 ? beam - 1 : range_m_.size() - 1; }
+  [[nodiscard]] bool shares_first_side(std::size_t beam) const;
+  [[nodiscard]] Point side(std::size_t beam, double length_m, double turn) const;
   [[nodiscard]] Point start(std::size_t beam, const Outline& outline) const;
   [[nodiscard]] Point end(std::size_t beam, const Outline& outline) const;
-  [[nodiscard]] bool near_is_end_of_free(std::size_t first, std::size_t last) const;
-  [[nodiscard]] bool free_goes_on(std::size_t beam) const;
+  [[nodiscard]] RegionFiller::Sides seen_outwards(RegionFiller::Sides sides) const;
+  [[nodiscard]] Layers layers(std::size_t beam) const;
   void add_outline(const Outline& outline, std::size_t first, std::size_t last, RegionFiller::Sides sides);
+  template <typename Place>
+  void add_side(const Point& sensor, const Layers& before, const Layers& after, const Place& place);
+  void add_joint(std::size_t beam);
+  void add_sides_after(std::size_t beam);
+  void add_ways_of_sensor();
   void add_contours();
 
   sensors::RangeFinder range_finder_;
@@ -99,8 +111,14 @@ class ScanPainter {
   double cells_per_metre_ = 0.0;
   double half_sector_cos_ = 1.0, half_sector_sin_ = 0.0;  ///< of half the angle between beams, at most
   bool touching_ = false;                                 ///< sectors reach half-way to their neighbours
+  bool all_round_ = false;                                ///< so do the last one and the first
   std::vector<double> sensor_x_, sensor_y_;               ///< directions of the beams in the sensor frame
-  std::array<evidence::FixedLogCommonality, RegionFiller::kClasses> increments_;
+  RegionFiller::Increments increments_;
+
+  // The scan at hand.
+  bool moving_ = false;               ///< the sensor
+  bool near_is_end_of_free_ = false;  ///< of every beam
+  bool apart_ = false;                ///< regions do not overlap
 
   // The beams of the scan at hand, an array for each of their properties: most is worked out for many at a time.
   std::vector<double> origin_x_, origin_y_;        ///< in cells

@@ -93,11 +93,12 @@ class SequentialMapper {
     }
     grids::EvidentialGrid one(params_.georeference);
     const ScanPainter::Counts counts = scans_[static_cast<std::size_t>(scan.sensor)].paint(
-        one, T_map_base.value.pose, reliability, scan.ranges_m, path, scan.time);
+        one, pending_, T_map_base.value.pose, reliability, scan.ranges_m, path, scan.time);
     counts_.echoes += counts.echoes;
     counts_.no_returns += counts.no_returns;
     counts_.missing += counts.missing;
     counts_.out_of_range += counts.out_of_range;
+    pending_.settle(one);
     fold(one, scan.time);
   }
 
@@ -131,6 +132,7 @@ class SequentialMapper {
   std::vector<AnySonarModel> sonars_;  // one for each ring
   std::vector<ScanPainter> scans_;     // one for each range finder
   std::vector<PlacedReading> placed_;  // of the sweep at hand
+  PendingRegions pending_;             // of the scan at hand
   MappingCounts counts_;
   std::int64_t abandoned_ = 0;
 };

@@ -43,30 +43,54 @@ void add(Tile& tile, int place, const FixedLogCommonality& increment) {
   FixedLogCommonality::accumulate(tile.unknown[place], increment.unknown);
 }
 
-TEST(CellKernels, StretchesGetTheirIncrementsAndNoOtherCellChanges) {
+TEST(CellKernels, ATileTakesInTheRegionsThatItsColumnsCross) {
   std::mt19937 random(1);
-  const std::vector<FixedLogCommonality> increments{random_increment(random), random_increment(random)};
-  std::vector<Stretch> stretches;
-  for (int i = 0; i < 2000; ++i) {
-    const int column = static_cast<int>(random() % Tile::kSide), row = static_cast<int>(random() % Tile::kSide);
-    const int count = 1 + static_cast<int>(random()) % (Tile::kSide - column);
-    stretches.push_back({static_cast<std::int16_t>(row * Tile::kSide + column),
-                         static_cast<std::int16_t>(std::max(1, std::abs(count))), static_cast<int>(random() % 2)});
+  const grids::TileIndex index{-2, 5};
+  grids::EvidentialGrid before;
+  before.tile(index) = *random_tile(random);
+  auto changes = std::make_unique<TileChanges>();
+  RowEvidence below;  // of regions that come up from the tile below
+  Tile expected = *before.find_tile(index);
+  const auto fill = [&](int column, int from, int to, const FixedLogCommonality& increment) {
+    for (int row = from; row < to; ++row) add(expected, row * Tile::kSide + column, increment);
+  };
+  for (int i = 0; i < 300; ++i) {
+    const int column = static_cast<int>(random() % Tile::kSide), first = static_cast<int>(random() % 80) - 16;
+    const int last = std::max(first, 0) + 1 + static_cast<int>(random() % Tile::kSide);
+    const PaddedIncrement evidence{random_increment(random)};
+    fill(column, std::max(first, 0), std::min(last, Tile::kSide), evidence.increment);
+    if (first >= 0) {
+      changes->change(column, first, evidence.quad());
+    } else {
+      Channels& cells = below.cells[static_cast<std::size_t>(column / grids::kLanes)];
+      cells.empty[column % grids::kLanes] += evidence.increment.empty;
+      cells.occupied[column % grids::kLanes] += evidence.increment.occupied;
+      cells.unknown[column % grids::kLanes] += evidence.increment.unknown;
+      below.held |= 1U << column / grids::kLanes;
+    }
+    if (last < Tile::kSide) changes->change(column, last, -evidence.quad());
   }
-  stretches.push_back({Tile::kCells - 1, 1, 1});  // the last cell, and the whole last row
-  stretches.push_back({Tile::kCells - Tile::kSide, Tile::kSide, 0});
-  stretches.push_back({3 * Tile::kSide, 5 * Tile::kSide, 1});  // several rows, whole and not, and all of them
-  stretches.push_back({Tile::kSide + 5, 3 * Tile::kSide + 1, 0});
-  stretches.push_back({0, Tile::kCells, 1});
-  const auto before = random_tile(random);
-  Tile expected = *before, baseline = *before, best = *before;
-  for (const Stretch& s : stretches)
-    for (int i = 0; i < s.count; ++i) add(expected, s.place + i, increments[s.region_class]);
-  add_by_class(baseline, stretches, increments, Instructions::kBaseline);
-  add_by_class(best, stretches, increments, grids::best_instructions());
-  EXPECT_TRUE(baseline == expected);
-  EXPECT_TRUE(best == expected);
+  for (const Instructions instructions : {Instructions::kBaseline, grids::best_instructions()}) {
+    grids::EvidentialGrid grid = before;
+    TileChanges taken = *changes;
+    RowEvidence evidence = below;
+    settle_tile(grid, index, &taken, evidence, instructions);
+    EXPECT_TRUE(*grid.find_tile(index) == expected);
+    EXPECT_EQ(std::ranges::count(taken.rows, 1), 0);
+  }
   EXPECT_TRUE(expected.is_saturated());
+}
+
+TEST(CellKernels, ARegionThatEndsBelowATileMakesNone) {
+  grids::EvidentialGrid grid;
+  TileChanges changes;
+  RowEvidence evidence;
+  evidence.cells[0].empty[3] = -7;
+  evidence.held = 1;
+  changes.change(3, 0, Quad{7, 0, 0, 0});
+  settle_tile(grid, {0, 0}, &changes, evidence);
+  EXPECT_TRUE(grid.tiles().empty());
+  EXPECT_EQ(evidence.held, 0U);
 }
 
 /// Fans in all directions over one tile, from apexes in it and around it.
@@ -101,7 +125,7 @@ class FanKernel : public ::testing::Test {
   }
 
   std::mt19937 random_{2};
-  std::vector<TableEntry> entries_;
+  std::vector<PaddedIncrement> entries_;
 };
 
 TEST_F(FanKernel, GivesTheSameBitsWithAllInstructions) {

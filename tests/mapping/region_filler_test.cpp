@@ -28,16 +28,23 @@ int turns_around(const Eigen::Vector2d& point, const Contour& contour) {
   return turns;
 }
 
-std::vector<FixedLogCommonality> increments_by_class() {
-  std::vector<FixedLogCommonality> increments(RegionFiller::kClasses);
-  for (int c = 0; c < RegionFiller::kClasses; ++c) increments[c] = {-1 - c, -100 - c, -10'000 - c};
+RegionFiller::Increments increments_by_class() {
+  RegionFiller::Increments increments;
+  for (int c = 0; c < RegionFiller::kClasses; ++c) increments[c].increment = {-1 - c, -100 - c, -10'000 - c};
   return increments;
+}
+
+void fill(grids::EvidentialGrid& grid, RegionFiller& filler, const RegionFiller::Increments& increments,
+          RegionFiller::Regions regions = RegionFiller::Regions::kMayOverlap) {
+  PendingRegions pending;
+  filler.fill(grid, pending, increments, regions);
+  pending.settle(grid);
 }
 
 TEST(RegionFiller, EveryCellGetsTheHighestClassThatWindsAroundItsCentre) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-90.0, 110.0);
-  const std::vector<FixedLogCommonality> increments = increments_by_class();
+  const RegionFiller::Increments increments = increments_by_class();
   RegionFiller filler;
   for (int round = 0; round < 12; ++round) {
     std::vector<std::pair<Contour, int>> contours;
@@ -48,14 +55,14 @@ TEST(RegionFiller, EveryCellGetsTheHighestClassThatWindsAroundItsCentre) {
       filler.add_contour(contour, contours.back().second);
     }
     grids::EvidentialGrid grid;
-    filler.fill(grid, increments);
+    fill(grid, filler, increments);
     for (int y = -95; y < 115; ++y) {
       for (int x = -95; x < 115; ++x) {
         std::array<int, RegionFiller::kClasses> turns{};
         for (const auto& [contour, c] : contours) turns[c] += turns_around({x + 0.5, y + 0.5}, contour);
         FixedLogCommonality expected;
         for (int c = 0; c < RegionFiller::kClasses; ++c)
-          if (turns[c] != 0) expected = increments[c];
+          if (turns[c] != 0) expected = increments[c].increment;
         ASSERT_EQ(grid.at({x, y}), expected) << x << ' ' << y << " in round " << round;
       }
     }
@@ -63,17 +70,17 @@ TEST(RegionFiller, EveryCellGetsTheHighestClassThatWindsAroundItsCentre) {
 }
 
 TEST(RegionFiller, ContoursThatShareAnEdgeLeaveNoCellBetweenThemAndFillNoneTwice) {
-  const std::vector<FixedLogCommonality> increments = increments_by_class();
+  const RegionFiller::Increments increments = increments_by_class();
   const Contour lower{{0.3, 0.2}, {70.1, 3.7}, {66.6, 40.2}}, upper{{0.3, 0.2}, {66.6, 40.2}, {-3.0, 50.0}};
   Contour both{lower[0], lower[1], lower[2], upper[2]};
   grids::EvidentialGrid apart, together;
   RegionFiller filler;
   filler.add_contour(lower, 5);
-  filler.fill(apart, increments);
+  fill(apart, filler, increments);
   filler.add_contour(upper, 5);
-  filler.fill(apart, increments);
+  fill(apart, filler, increments);
   filler.add_contour(both, 5);
-  filler.fill(together, increments);
+  fill(together, filler, increments);
   EXPECT_EQ(apart, together);
 }
 
@@ -81,7 +88,7 @@ TEST(RegionFiller, AChainBetweenTwoRegionsBoundsBoth) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> aside(-6.0, 6.0);
   const Contour around{{-70.2, -5.1}, {90.3, -5.1}, {90.3, 81.4}, {-70.2, 81.4}};  // of both regions
-  const std::vector<FixedLogCommonality> increments = increments_by_class();
+  const RegionFiller::Increments increments = increments_by_class();
   RegionFiller filler;
   for (int round = 0; round < 20; ++round) {
     Contour border;  // from the lower edge to the upper one, forth and back
@@ -95,7 +102,7 @@ TEST(RegionFiller, AChainBetweenTwoRegionsBoundsBoth) {
     grids::EvidentialGrid apart, shared;
     filler.add_contour(left, 3);
     filler.add_contour(right, 40);
-    filler.fill(apart, increments);
+    fill(apart, filler, increments);
 
     const auto add_chain = [&](const Contour& corners, RegionFiller::Sides sides) {
       for (const Eigen::Vector2d& corner : corners) filler.add_corner({corner.x(), corner.y()});
@@ -104,7 +111,7 @@ TEST(RegionFiller, AChainBetweenTwoRegionsBoundsBoth) {
     add_chain(border, {.left = 3, .right = 40});
     add_chain({border.back(), around[3], around[0], border.front()}, {.left = 3});
     add_chain({border.back(), around[2], around[1], border.front()}, {.right = 40});
-    filler.fill(shared, increments);
+    fill(shared, filler, increments);
     ASSERT_EQ(apart, shared) << "round " << round;
   }
 }
@@ -115,12 +122,12 @@ TEST(RegionFiller, ForgetsItsContours) {
   grids::EvidentialGrid grid;
   filler.add_contour(square, 0);
   filler.clear();
-  filler.fill(grid, increments_by_class());
+  fill(grid, filler, increments_by_class());
   EXPECT_TRUE(grid.tiles().empty());
   filler.add_contour(square, 0);
-  filler.fill(grid, increments_by_class());
-  filler.fill(grid, increments_by_class());
-  EXPECT_EQ(grid.at({4, 4}), increments_by_class()[0]);
+  fill(grid, filler, increments_by_class());
+  fill(grid, filler, increments_by_class());
+  EXPECT_EQ(grid.at({4, 4}), increments_by_class()[0].increment);
   EXPECT_EQ(grid.bounding_box(), (grids::CellBox{{0, 0}, 9, 9}));
 }
 

@@ -120,6 +120,63 @@ TEST(MapperLaser, EveryCellIsUpdatedOnceWhereTrustChangesAlongASurface) {
   EXPECT_GT(cells_in(mapper.grid()), 6000);
 }
 
+/// Poses, angles and ranges for which borders run through centres of cells and meet in them, where the last digit
+/// decides on which side a cell is.
+TEST(MapperLaser, EveryCellIsUpdatedOnceWhereBordersRunThroughCentresOfCells) {
+  sensors::RangeFinder finder = panoramic();
+  const Li2006Laser laser;
+  std::vector<FixedLogCommonality> single{{}};
+  for (const auto& mass : {laser.free_mass(), laser.hit_mass()})
+    for (const FixedLogCommonality& increment : increments(mass, laser.reliability())) single.push_back(increment);
+  std::mt19937 random(23);
+  for (int round = 0; round < 400; ++round) {
+    finder.count = round % 2 == 0 ? 360 : 8;
+    finder.angle_increment_rad = (round % 3 == 0 ? -2.0 : 2.0) * kPi / finder.count;
+    finder.angle_min_rad = round % 5 < 2 ? 0.5 * finder.angle_increment_rad : -kPi;
+    Mapper mapper(rig_with(finder));
+    sensors::RangeScan scan;
+    float range_m = 1.0F;
+    for (int i = 0; i < finder.count; ++i) {
+      if (random() % 4 == 0) range_m = 0.025F * static_cast<float>(random() % 120);
+      scan.ranges_m.push_back(random() % 9 == 0 ? kInf : range_m);
+    }
+    const auto multiple = [&](double unit) { return unit * static_cast<double>(random() % 8); };
+    const Pose2 pose{multiple(0.025), multiple(0.025), multiple(0.25 * kPi)};
+    mapper.insert(certain(pose), scan);
+    for (const auto& [index, tile] : mapper.grid().tiles())
+      for (int i = 0; i < grids::Tile::kCells; ++i)
+        ASSERT_TRUE(std::ranges::find(single, FixedLogCommonality{tile.empty[i], tile.occupied[i], tile.unknown[i]}) !=
+                    single.end())
+            << "round " << round << " cell " << i;
+  }
+}
+
+/// Of a robot that moves regions may overlap: they are filled in another way.
+TEST(MapperLaser, ARobotThatStandsMapsTheSameWithItsPathAsWithout) {
+  sensors::RangeFinder finder = panoramic();
+  finder.scan_time_s = 0.5;
+  std::mt19937 random(29);
+  std::uniform_real_distribution<double> place(0.5, 2.5), angle(-3.0, 3.0);
+  std::normal_distribution<float> noise(0.0F, 0.02F);
+  int different = 0, cells = 0;
+  for (int round = 0; round < 20; ++round) {
+    const Pose2 pose{2.0 * place(random), place(random), angle(random)};
+    sensors::RangeScan scan = scan_of_room(finder, pose, 6.0, 3.0);
+    for (float& range_m : scan.ranges_m) range_m = random() % 12 == 0 ? 0.5F * range_m : range_m + noise(random);
+    const sensors::MotionPath path({{-1'000'000'000, pose}, {1'000'000'000, pose}});
+    Mapper with(rig_with(finder)), without(rig_with(finder));
+    with.insert(certain(pose), scan, path);
+    without.insert(certain(pose), scan);
+    const grids::CellBox box = without.grid().bounding_box();
+    for (int y = box.min.y - 2; y < box.min.y + box.height + 2; ++y)
+      for (int x = box.min.x - 2; x < box.min.x + box.width + 2; ++x)
+        different += with.grid().at({x, y}) != without.grid().at({x, y});
+    cells += cells_in(without.grid());
+  }
+  EXPECT_LE(different, 2);  // rounding
+  EXPECT_GT(cells, 100'000);
+}
+
 TEST(MapperLaser, BeamsThatTurnTheOtherWayGiveTheSameMap) {
   sensors::RangeFinder left = panoramic(), right = panoramic();
   left.angle_min_rad = -1.5;
