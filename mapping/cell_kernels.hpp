@@ -31,13 +31,13 @@ struct TileChanges {
     Quad by{};
   };
   alignas(64) std::array<Change, grids::Tile::kCells> cells;
-  alignas(64) std::array<std::uint8_t, grids::Tile::kSide> rows{};  ///< 1 where something changes
+  alignas(64) std::array<bool, grids::Tile::kSide> rows{};  ///< whether something changes in it
 
   /// Evidence for all cells of a column of the grid from one in this tile up.
   void change(std::int32_t column, std::int32_t row, const Quad& by) {
     const auto place = static_cast<std::size_t>(grids::place_in_tile({column, row}));
     cells[place].by += by;
-    rows[place >> grids::Tile::kShift] = 1;
+    rows[place >> grids::Tile::kShift] = true;
   }
 };
 

@@ -108,11 +108,13 @@ void RegionFiller::measure() {
         constexpr int kShift = grids::Tile::kShift;  // crossings may be rounded beyond the corners
         tiles_ = {{(low_row - 1) >> kShift, low_column >> kShift}, {(high_row + 1) >> kShift, high_column >> kShift}};
         for (std::size_t i = 0; i + 1 < count; ++i) {
-          const bool right = columns[i] < columns[i + 1];  // both directions must cross a column at the same place
-          const double left_x = right ? x[i] : x[i + 1], right_x = right ? x[i + 1] : x[i];
-          const double left_y = right ? y[i] : y[i + 1], right_y = right ? y[i + 1] : y[i];
-          const double centre = std::min(columns[i], columns[i + 1]) + 0.5;
-          const double slope = columns[i] != columns[i + 1] ? (right_y - left_y) / (right_x - left_x) : 0.0;
+          const double x0 = x[i], y0 = y[i], x1 = x[i + 1], y1 = y[i + 1];
+          const bool right = x0 < x1;  // both directions must cross a column at the same place
+          const double left_x = right ? x0 : x1, left_y = right ? y0 : y1;
+          const double right_x = right ? x1 : x0, right_y = right ? y1 : y0;
+          const std::int32_t from = columns[i], to = columns[i + 1];
+          const double centre = (from < to ? from : to) + 0.5, width = right_x - left_x;
+          const double slope = (right_y - left_y) / (width > 0.0 ? width : 1.0);
           slopes[i] = slope;
           rows[i] = first_centre(centre < middle(left_x, right_x) ? left_y + (centre - left_x) * slope
                                                                   : right_y - (right_x - centre) * slope);

@@ -31,7 +31,7 @@ constexpr double kWallHalfCells =
 int free_class(double reliability) { return level_of(reliability) - 1; }  // -1: none
 int hit_class(double reliability) {
   const int level = level_of(reliability);
-  return level > 0 ? kLevels + level - 1 : -1;
+  return level + (level > 0 ? kLevels - 1 : -1);
 }
 
 /// The greatest of some lengths, 0 if there is none; eight at a time.
@@ -89,54 +89,56 @@ ScanPainter::ScanPainter(const sensors::RangeFinder& range_finder, const grids::
   }
   const auto count = static_cast<std::size_t>(range_finder.count);
   for (std::vector<double>* values :
-       {&origin_x_, &origin_y_, &direction_x_, &direction_y_, &range_m_, &sine_before_, &sine_after_, &free_.length_m,
-        &free_.x, &free_.y, &near_.length_m, &near_.x, &near_.y, &far_.length_m, &far_.x, &far_.y})
+       {&origin_x_,      &origin_y_, &direction_x_, &direction_y_,   &range_m_,      &sine_before_, &sine_after_,
+        &free_.length_m, &free_.x,   &free_.y,      &near_.length_m, &near_.x,       &near_.y,      &far_.length_m,
+        &far_.x,         &far_.y,    &echo_,        &margin_m_,      &half_width_m_, &hit_share_})
     values->resize(count);
   free_class_.resize(count);
   hit_class_.resize(count);
 }
 
+/// What the readings are, and what the laser's tables hold for each.
+ScanPainter::Counts ScanPainter::look_up(std::span<const float> ranges_m) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double least_m = range_finder_.range_min_m, most_m = range_finder_.range_max_m;
+  Counts counts;
+  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
+    const double reading_m = ranges_m[i];
+    const bool echo = (reading_m >= least_m) & (reading_m <= most_m);
+    counts.echoes += echo;
+    counts.no_returns += reading_m == kInfinity;
+    counts.missing += reading_m != reading_m;
+    const double range_m = echo ? reading_m : 0.0;
+    const auto bin = static_cast<std::size_t>(range_m * tables_.bins_per_metre);
+    echo_[i] = echo ? 1.0 : 0.0;
+    range_m_[i] = range_m;
+    margin_m_[i] = tables_.free_margin_m[bin];
+    half_width_m_[i] = tables_.half_width_m[bin];
+    hit_share_[i] = tables_.hit_share[bin];
+  }
+  counts.out_of_range = static_cast<int>(ranges_m.size()) - counts.echoes - counts.no_returns - counts.missing;
+  return counts;
+}
+
 /// What every beam says, and how strongly. As all loops over the beams without a branch, and told (`ivdep`) that the
 /// arrays do not overlap, so that it is vectorised.
 ScanPainter::Counts ScanPainter::classify(std::span<const float> ranges_m, const PoseReliability& reliability) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Counts counts = look_up(ranges_m);
   const double reach_m = std::min(params_.max_range_m, range_finder_.range_max_m);
-  const double least_m = range_finder_.range_min_m, most_m = range_finder_.range_max_m,
-               max_range_m = params_.max_range_m;
-  const double bins_per_metre = tables_.bins_per_metre;
-  const float* const half_widths_m = tables_.half_width_m.data();
-  const float* const margins_m = tables_.free_margin_m.data();
-  const float* const hit_shares = tables_.hit_share.data();
-  Counts counts;
+  const double max_range_m = params_.max_range_m;
   grids::run_with(
       grids::best_instructions(), [&]() __attribute__((always_inline)) {
-        int echoes = 0, no_returns = 0, missing = 0;
 #pragma GCC ivdep
-        for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-          const double reading_m = ranges_m[i];
-          const bool echo = (reading_m >= least_m) & (reading_m <= most_m);
-          echoes += echo;
-          no_returns += reading_m == kInfinity;
-          missing += reading_m != reading_m;
-
-          const double range_m = echo ? reading_m : 0.0;
-          const auto bin = static_cast<std::int32_t>(range_m * bins_per_metre);
-          const double half_width_m = half_widths_m[bin], margin_m = margins_m[bin], hit_share = hit_shares[bin];
+        for (std::size_t i = 0; i < range_m_.size(); ++i) {
+          const double echo = echo_[i], range_m = range_m_[i], half_width_m = half_width_m_[i];
           const double trust = reliability.at(std::min(range_m, reach_m));
-          const int free = free_class(trust), hit = hit_class(trust * hit_share);
-          const double free_m = std::min(std::max(0.0, range_m - margin_m), reach_m);
-          const double near_m = std::max(0.0, range_m - half_width_m), far_m = range_m + half_width_m;
-          range_m_[i] = range_m;
-          free_class_[i] = echo ? free : -1;
-          hit_class_[i] = echo & (range_m <= max_range_m) ? hit : -1;
-          free_.length_m[i] = echo ? free_m : 0.0;
-          near_.length_m[i] = echo ? near_m : 0.0;
-          far_.length_m[i] = echo ? far_m : 0.0;
+          const double in_reach = range_m <= max_range_m ? echo : 0.0;
+          free_class_[i] = free_class(echo * trust);
+          hit_class_[i] = hit_class(in_reach * trust * hit_share_[i]);
+          free_.length_m[i] = echo * std::min(std::max(0.0, range_m - margin_m_[i]), reach_m);
+          near_.length_m[i] = echo * std::max(0.0, range_m - half_width_m);
+          far_.length_m[i] = echo * (range_m + half_width_m);
         }
-        counts = {.echoes = echoes,
-                  .no_returns = no_returns,
-                  .missing = missing,
-                  .out_of_range = static_cast<int>(ranges_m.size()) - echoes - no_returns - missing};
       });
   if (counts.no_returns > 0) classify_no_returns(ranges_m, reliability);
   return counts;
@@ -401,13 +403,19 @@ void ScanPainter::compare_outlines() {
   int between = 0, close = 0;
   grids::run_with(
       grids::best_instructions(), [&]() __attribute__((always_inline)) {
+        int some_between = 0, some_close = 0;
+#pragma GCC ivdep
         for (std::size_t i = 0; i < range_m_.size(); ++i) {
           const double free_m = free_.length_m[i], near_m = near_.length_m[i], far_m = far_.length_m[i];
-          const bool hit = hit_class_[i] >= 0;
-          const bool apart = ((near_m == free_m) | (near_m - free_m >= least_m)) & (far_m - near_m >= least_m);
-          between += hit & (near_m != free_m);
-          close += ((free_m > 0.0) & (free_m < least_m)) | (hit & !apart);
+          const double hit = hit_class_[i] + 1.0, gap_m = near_m - free_m, thick_m = far_m - near_m;
+          const double is_between = gap_m != 0.0 ? hit : 0.0;
+          const double is_thin = (thick_m < least_m) | ((gap_m != 0.0) & (gap_m < least_m)) ? hit : 0.0;
+          const double is_short = (free_m > 0.0) & (free_m < least_m) ? 1.0 : 0.0;
+          some_between += static_cast<int>(is_between);
+          some_close += static_cast<int>(is_thin + is_short);
         }
+        between = some_between;
+        close = some_close;
       });
   near_is_end_of_free_ = between == 0;
   const double increment = std::abs(range_finder_.angle_increment_rad), around = increment * range_finder_.count;

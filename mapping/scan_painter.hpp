@@ -79,6 +79,7 @@ class ScanPainter {
   struct Layers;
   using Point = RegionFiller::Corner;
 
+  Counts look_up(std::span<const float> ranges_m);
   Counts classify(std::span<const float> ranges_m, const PoseReliability& reliability);
   void classify_no_returns(std::span<const float> ranges_m, const PoseReliability& reliability);
   double place(const geometry::Pose2& T_map_base, const sensors::MotionPath& path, sensors::Timestamp time);
@@ -121,9 +122,11 @@ class ScanPainter {
   bool apart_ = false;                ///< regions do not overlap
 
   // The beams of the scan at hand, an array for each of their properties: most is worked out for many at a time.
-  std::vector<double> origin_x_, origin_y_;        ///< in cells
-  std::vector<double> direction_x_, direction_y_;  ///< unit vectors
-  std::vector<double> range_m_;                    ///< 0 without an echo
+  std::vector<double> origin_x_, origin_y_;                  ///< in cells
+  std::vector<double> direction_x_, direction_y_;            ///< unit vectors
+  std::vector<double> echo_;                                 ///< 1 with an echo, 0 without
+  std::vector<double> range_m_;                              ///< 0 without an echo
+  std::vector<double> margin_m_, half_width_m_, hit_share_;  ///< from the tables
   Outline free_, near_, far_;
   std::vector<int> free_class_, hit_class_;       ///< -1: none
   std::vector<double> sine_before_, sine_after_;  ///< of the incidence on the surface shared with a neighbour; 0: none

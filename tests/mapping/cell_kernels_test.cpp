@@ -76,7 +76,7 @@ TEST(CellKernels, ATileTakesInTheRegionsThatItsColumnsCross) {
     RowEvidence evidence = below;
     settle_tile(grid, index, &taken, evidence, instructions);
     EXPECT_TRUE(*grid.find_tile(index) == expected);
-    EXPECT_EQ(std::ranges::count(taken.rows, 1), 0);
+    EXPECT_EQ(std::ranges::count(taken.rows, true), 0);
   }
   EXPECT_TRUE(expected.is_saturated());
 }
