@@ -22,7 +22,7 @@ std::vector<datasets::TimedPose> ego_poses(const datasets::Dataset& dataset) {
                              ": ego-motion needs a range finder or odometry, and there is neither");
   const datasets::Acquisitions acquisitions(dataset);
   perception::Observer observer(rig);
-  localization::EgoMotion ego_motion;
+  localization::EgoMotion ego_motion(dataset.header.initial_pose.value_or(geometry::PoseEstimate{}));
   std::vector<datasets::TimedPose> poses;
   poses.reserve(acquisitions.size());
   Progress progress("following " + dataset.header.name);

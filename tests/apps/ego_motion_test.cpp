@@ -37,6 +37,8 @@ TEST_F(Command, EgoMotionMapsWithoutPoses) {
   const json report = json::parse(answer.out);
   EXPECT_EQ(report["poses"], "ego-motion");
   EXPECT_GT(report["scans"].get<int>(), 0);
+  const json score = json::parse(credo("evaluate map data map --format json").out);
+  EXPECT_GT(score["accuracy"].get<double>(), 0.9) << score;
 }
 
 TEST_F(Command, APoseIsSetByHandDuringTheDrive) {
