@@ -26,16 +26,10 @@ bool at_floor(const Channel& channel) {
   return std::ranges::find(channel, FixedLogCommonality::kFloor) != channel.end();
 }
 
-/// FixedLogCommonality::operator+=, for a whole channel, in a form that the compiler vectorises: a sum of two negative
-/// numbers that is not negative has passed the floor.
 void add_channel(Channel& to, const Channel& from) {
   run_with(
       best_instructions(), [&]() __attribute__((always_inline)) {
-        for (int i = 0; i < Tile::kCells; ++i) {
-          const auto sum =
-              static_cast<std::int32_t>(static_cast<std::uint32_t>(to[i]) + static_cast<std::uint32_t>(from[i]));
-          to[i] = (to[i] & from[i] & ~sum) < 0 ? FixedLogCommonality::kFloor : sum;
-        }
+        for (int i = 0; i < Tile::kCells; ++i) FixedLogCommonality::accumulate(to[i], from[i]);
       });
 }
 

@@ -133,7 +133,7 @@ void Mapper::insert(const Believed<PoseEstimate>& T_map_base, const sensors::Ran
   const auto paint = [&](EvidentialGrid& grid, const Believed<PoseEstimate>& pose) {
     const PoseReliability reliability(pose, s.params.georeference.resolution_m, s.params.pose, trust);
     if (reliability.maps_nothing()) return MappingCounts{.scans = 1, .refused = 1};
-    const ScanPainter::Counts seen =
+    const ScanBeams::Counts seen =
         s.scans[finder].paint(grid, s.pending, pose.value.pose, reliability, scan.ranges_m, path, scan.time);
     return MappingCounts{.scans = 1,
                          .echoes = seen.echoes,

@@ -4,305 +4,37 @@
 #include "mapping/scan_painter.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
-#include <numbers>
-#include <stdexcept>
-#include <string>
 #include <utility>
-
-#include "grids/instructions.hpp"
-#include "mapping/resolution_fit.hpp"
 
 namespace credo::mapping {
 namespace {
 
-using geometry::Pose2;
-
-constexpr int kPathKnots = 16;  // poses along a scan, between which the motion is taken as even
-// What is closer may change its order by rounding.
-constexpr double kLeastAngle = 1e-4;  // [rad]
-constexpr double kLeastCells = 1e-3;
-constexpr double kRounding = 1e-9;
-constexpr double kWallHalfCells =
-    0.55;  // to either side of a surface: half a cell, and a bit for one on a border of cells
-
-int free_class(double reliability) { return level_of(reliability) - 1; }  // -1: none
-int hit_class(double reliability) {
-  const int level = level_of(reliability);
-  return level + (level > 0 ? kLevels - 1 : -1);
-}
-
-/// The greatest of some lengths, 0 if there is none; eight at a time.
-double greatest(const std::vector<double>& lengths) {
-  std::array<double, 8> most{};
-  std::size_t i = 0;
-  for (; i + most.size() <= lengths.size(); i += most.size())
-    for (std::size_t k = 0; k < most.size(); ++k) most[k] = most[k] > lengths[i + k] ? most[k] : lengths[i + k];
-  for (; i < lengths.size(); ++i) most[0] = std::max(most[0], lengths[i]);
-  return std::ranges::max(most);
-}
-
-void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("range finder: " + message);
-}
-
-void check(const sensors::RangeFinder& finder, const grids::Georeference& georeference, const ScanParams& params) {
-  require(finder.count > 0, "count must be above 0, not " + std::to_string(finder.count));
-  require(std::isfinite(finder.angle_min_rad) && std::isfinite(finder.angle_increment_rad) &&
-              finder.angle_increment_rad != 0.0 && std::abs(finder.angle_increment_rad) < 0.5 * std::numbers::pi,
-          "angle_increment must be finite, not 0 and below pi/2");
-  require(finder.range_min_m >= 0.0 && finder.range_max_m > finder.range_min_m && std::isfinite(finder.range_max_m),
-          "range_max must be finite and above range_min");
-  require(params.max_range_m > 0.0 && params.no_return_range_m >= 0.0, "ranges of the mapping must not be negative");
-  require(params.no_return_reliability >= 0.0 && params.no_return_reliability <= 1.0,
-          "no_return_reliability must be in [0, 1]");
-  require(params.min_incidence_rad > 0.0 && params.max_half_sector_rad > 0.0,
-          "min_incidence_rad and max_half_sector_rad must be above 0");
-  const double reach_m = std::min(finder.range_max_m, params.max_range_m);
-  require_resolution_fits(georeference.resolution_m, reach_m, "range finder");
-}
+int free_class(int level) { return level > 0 ? level - 1 : RegionFiller::kOutside; }
+int hit_class(int level) { return level > 0 ? kLevels + level - 1 : RegionFiller::kOutside; }
 
 }  // namespace
 
 ScanPainter::ScanPainter(const sensors::RangeFinder& range_finder, const grids::Georeference& georeference,
                          LaserTables tables, const ScanParams& params)
-    : range_finder_(range_finder), georeference_(georeference), tables_(std::move(tables)), params_(params) {
-  check(range_finder, georeference, params);
-  const double half = 0.5 * std::abs(range_finder.angle_increment_rad);
-  touching_ = half <= params.max_half_sector_rad;
-  all_round_ = touching_ && std::abs(2.0 * half * range_finder.count - 2.0 * std::numbers::pi) < kRounding;
-  const double half_sector_rad =
-      std::copysign(std::min(half, params.max_half_sector_rad), range_finder.angle_increment_rad);
-  half_sector_cos_ = std::cos(half_sector_rad);
-  half_sector_sin_ = std::sin(half_sector_rad);
-  cells_per_metre_ = 1.0 / georeference.resolution_m;
-  for (int beam = 0; beam < range_finder.count; ++beam) {
-    const double angle = range_finder.beam_angle(beam);
-    sensor_x_.push_back(std::cos(angle));
-    sensor_y_.push_back(std::sin(angle));
-  }
+    : beams_(range_finder, georeference, std::move(tables), params) {
   for (int level = 1; level <= kLevels; ++level) {
-    increments_[level - 1].increment = tables_.free[level];
-    increments_[kLevels + level - 1].increment = tables_.hit[level];
+    increments_[static_cast<std::size_t>(free_class(level))].increment = beams_.tables().free[level];
+    increments_[static_cast<std::size_t>(hit_class(level))].increment = beams_.tables().hit[level];
   }
-  const auto count = static_cast<std::size_t>(range_finder.count);
-  for (std::vector<double>* values :
-       {&origin_x_,      &origin_y_, &direction_x_, &direction_y_,   &range_m_,      &sine_before_, &sine_after_,
-        &free_.length_m, &free_.x,   &free_.y,      &near_.length_m, &near_.x,       &near_.y,      &far_.length_m,
-        &far_.x,         &far_.y,    &echo_,        &margin_m_,      &half_width_m_, &hit_share_})
-    values->resize(count);
-  free_class_.resize(count);
-  hit_class_.resize(count);
-}
-
-/// What the readings are, and what the laser's tables hold for each.
-ScanPainter::Counts ScanPainter::look_up(std::span<const float> ranges_m) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const double least_m = range_finder_.range_min_m, most_m = range_finder_.range_max_m;
-  Counts counts;
-  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-    const double reading_m = ranges_m[i];
-    const bool echo = (reading_m >= least_m) & (reading_m <= most_m);
-    counts.echoes += echo;
-    counts.no_returns += reading_m == kInfinity;
-    counts.missing += reading_m != reading_m;
-    const double range_m = echo ? reading_m : 0.0;
-    const auto bin = static_cast<std::size_t>(range_m * tables_.bins_per_metre);
-    echo_[i] = echo ? 1.0 : 0.0;
-    range_m_[i] = range_m;
-    margin_m_[i] = tables_.free_margin_m[bin];
-    half_width_m_[i] = tables_.half_width_m[bin];
-    hit_share_[i] = tables_.hit_share[bin];
-  }
-  counts.out_of_range = static_cast<int>(ranges_m.size()) - counts.echoes - counts.no_returns - counts.missing;
-  return counts;
-}
-
-/// What every beam says, and how strongly. As all loops over the beams without a branch, and told (`ivdep`) that the
-/// arrays do not overlap, so that it is vectorised.
-ScanPainter::Counts ScanPainter::classify(std::span<const float> ranges_m, const PoseReliability& reliability) {
-  const Counts counts = look_up(ranges_m);
-  const double reach_m = std::min(params_.max_range_m, range_finder_.range_max_m);
-  const double max_range_m = params_.max_range_m;
-  grids::run_with(
-      grids::best_instructions(), [&]() __attribute__((always_inline)) {
-#pragma GCC ivdep
-        for (std::size_t i = 0; i < range_m_.size(); ++i) {
-          const double echo = echo_[i], range_m = range_m_[i], half_width_m = half_width_m_[i];
-          const double trust = reliability.at(std::min(range_m, reach_m));
-          const double in_reach = range_m <= max_range_m ? echo : 0.0;
-          free_class_[i] = free_class(echo * trust);
-          hit_class_[i] = hit_class(in_reach * trust * hit_share_[i]);
-          free_.length_m[i] = echo * std::min(std::max(0.0, range_m - margin_m_[i]), reach_m);
-          near_.length_m[i] = echo * std::max(0.0, range_m - half_width_m);
-          far_.length_m[i] = echo * (range_m + half_width_m);
-        }
-      });
-  if (counts.no_returns > 0) classify_no_returns(ranges_m, reliability);
-  return counts;
-}
-
-/// Beams that nothing came back from; few in most scans.
-void ScanPainter::classify_no_returns(std::span<const float> ranges_m, const PoseReliability& reliability) {
-  const double free_m = std::min({params_.no_return_range_m, params_.max_range_m, range_finder_.range_max_m});
-  const int free = free_class(tables_.no_return_reliability * reliability.at(free_m));
-  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-    if (ranges_m[i] != std::numeric_limits<float>::infinity()) continue;
-    free_class_[i] = free;
-    free_.length_m[i] = free_m;
-  }
-}
-
-/// Beams [begin, end) are taken from one pose.
-void ScanPainter::set_pose(std::size_t begin, std::size_t end, const Pose2& sensor) {
-  const double c = std::cos(sensor.theta), s = std::sin(sensor.theta);
-  const double x = (sensor.x - georeference_.origin_x_m) / georeference_.resolution_m;
-  const double y = (sensor.y - georeference_.origin_y_m) / georeference_.resolution_m;
-  grids::run_with(
-      grids::best_instructions(), [&]() __attribute__((always_inline)) {
-#pragma GCC ivdep
-        for (std::size_t i = begin; i < end; ++i) {
-          origin_x_[i] = x;
-          origin_y_[i] = y;
-          direction_x_[i] = c * sensor_x_[i] - s * sensor_y_[i];
-          direction_y_[i] = s * sensor_x_[i] + c * sensor_y_[i];
-        }
-      });
-}
-
-/// Origins and directions of the beams, each when it was taken.
-/// \return how far the sensor comes from where it is at `time` [m]
-double ScanPainter::place(const Pose2& T_map_base, const sensors::MotionPath& path, sensors::Timestamp time) {
-  const auto sensor_at = [&](double seconds) {
-    const Pose2 T_map_now = T_map_base * path.motion(time, time + sensors::from_seconds(seconds));
-    return T_map_now * range_finder_.T_base_sensor;
-  };
-  const Pose2 here = T_map_base * range_finder_.T_base_sensor;
-  const int count = range_finder_.count;
-  moving_ = !path.empty() && range_finder_.scan_time_s != 0.0;
-  if (!moving_) {
-    set_pose(0, static_cast<std::size_t>(count), here);
-    return 0.0;
-  }
-  int next = 0;
-  double moved_m = 0.0;
-  Pose2 from = sensor_at(range_finder_.beam_time(0));
-  for (int knot = 1; knot <= kPathKnots; ++knot) {
-    const int begin = next, end = knot * count / kPathKnots;
-    if (end <= begin) continue;
-    const Pose2 to = sensor_at(range_finder_.beam_time(end));
-    for (; next < end; ++next) {
-      const Pose2 sensor = geometry::interpolate(from, to, static_cast<double>(next - begin) / (end - begin));
-      set_pose(next, next + 1, sensor);
-      moved_m = std::max(moved_m, (sensor.translation() - here.translation()).norm());
-    }
-    from = to;
-  }
-  return moved_m;
-}
-
-/// Which neighbours hit one surface.
-void ScanPainter::join() {
-  const double min_sine = std::sin(params_.min_incidence_rad);
-  const double resolution = georeference_.resolution_m;
-  const std::size_t count = range_m_.size();
-  sine_before_.front() = sine_after_.back() = 0.0;
-  grids::run_with(
-      grids::best_instructions(), [&]() __attribute__((always_inline)) {
-#pragma GCC ivdep
-        for (std::size_t i = 0; i + 1 < count; ++i) {
-          const double along_x = range_m_[i + 1] * direction_x_[i + 1] - range_m_[i] * direction_x_[i] +
-                                 (origin_x_[i + 1] - origin_x_[i]) * resolution;
-          const double along_y = range_m_[i + 1] * direction_y_[i + 1] - range_m_[i] * direction_y_[i] +
-                                 (origin_y_[i + 1] - origin_y_[i]) * resolution;
-          const double length = std::sqrt(along_x * along_x + along_y * along_y);
-          const double across = std::abs(direction_x_[i] * along_y - direction_y_[i] * along_x);
-          const double across_next = std::abs(direction_x_[i + 1] * along_y - direction_y_[i + 1] * along_x);
-          const bool joined =
-              (hit_class_[i] >= 0) & (hit_class_[i + 1] >= 0) & (length > 0.0) & (across >= min_sine * length);
-          const double divisor = joined ? length : 1.0;
-          sine_after_[i] = joined ? across / divisor : 0.0;
-          sine_before_[i + 1] = joined ? std::max(min_sine, across_next / divisor) : 0.0;
-        }
-      });
-}
-
-/// Where a surface is met at a grazing angle, the occupied part is widened so that every cell that the surface passes
-/// through has its centre in it: about half a cell to either side of the surface.
-void ScanPainter::widen() {
-  const std::size_t count = range_m_.size();
-  const double across_m = kWallHalfCells * georeference_.resolution_m;
-  grids::run_with(
-      grids::best_instructions(), [&]() __attribute__((always_inline)) {
-#pragma GCC ivdep
-        for (std::size_t i = 0; i < count; ++i) {
-          const double before = sine_before_[i], after = sine_after_[i];
-          const double range_m = range_m_[i], free_m = free_.length_m[i], near_m = near_.length_m[i],
-                       far_m = far_.length_m[i];
-          const double sine = before > after ? before : after;  // of two surfaces, the one met more steeply
-          const bool widened = (sine > 0.0) & ((far_m - range_m) * sine < across_m);
-          const double half_m = across_m / (widened ? sine : 1.0);
-          const double wide_near_m = std::max(0.0, range_m - half_m), wide_far_m = range_m + half_m;
-          const double wide_free_m = std::min(free_m, wide_near_m);
-          far_.length_m[i] = widened ? wide_far_m : far_m;
-          near_.length_m[i] = widened ? wide_near_m : near_m;
-          free_.length_m[i] = widened ? wide_free_m : free_m;
-        }
-      });
-}
-
-void ScanPainter::measure(Outline& outline) const {
-  grids::run_with(
-      grids::best_instructions(), [&]() __attribute__((always_inline)) {
-#pragma GCC ivdep
-        for (std::size_t i = 0; i < outline.x.size(); ++i) {
-          const double length = outline.length_m[i] * cells_per_metre_;
-          outline.x[i] = origin_x_[i] + length * direction_x_[i];
-          outline.y[i] = origin_y_[i] + length * direction_y_[i];
-        }
-      });
-}
-
-/// Whether a sector begins where the one before it ends. The first of a sensor that moves begins elsewhere.
-bool ScanPainter::shares_first_side(std::size_t beam) const {
-  return sine_before_[beam] > 0.0 || (touching_ && (beam > 0 || (all_round_ && !moving_)));
-}
-
-/// A place on a side of a beam's sector. \param turn  1: the last side in the order of the beams, -1: the first
-ScanPainter::Point ScanPainter::side(std::size_t beam, double length_m, double turn) const {
-  const double length = length_m * cells_per_metre_;
-  const double c = half_sector_cos_, s = turn * half_sector_sin_;
-  return {origin_x_[beam] + length * (c * direction_x_[beam] - s * direction_y_[beam]),
-          origin_y_[beam] + length * (s * direction_x_[beam] + c * direction_y_[beam])};
-}
-
-/// Where an outline leaves a beam's sector: half-way to the next beam where both hit one surface.
-ScanPainter::Point ScanPainter::end(std::size_t beam, const Outline& outline) const {
-  if (sine_after_[beam] > 0.0)
-    return {0.5 * (outline.x[beam] + outline.x[beam + 1]), 0.5 * (outline.y[beam] + outline.y[beam + 1])};
-  return side(beam, outline.length_m[beam], 1.0);
-}
-
-/// Where it enters it. Sectors that touch have their side in common, to the last digit.
-ScanPainter::Point ScanPainter::start(std::size_t beam, const Outline& outline) const {
-  if (sine_before_[beam] > 0.0) return end(beam - 1, outline);
-  if (shares_first_side(beam)) return side(before(beam), outline.length_m[beam], 1.0);
-  return side(beam, outline.length_m[beam], -1.0);
 }
 
 void ScanPainter::add_outline(const Outline& outline, std::size_t first, std::size_t last, RegionFiller::Sides sides) {
-  filler_.add_corner(start(first, outline));
+  filler_.add_corner(beams_.start(first, outline));
   filler_.add_corners(std::span(outline.x).subspan(first, last - first + 1),
                       std::span(outline.y).subspan(first, last - first + 1));
-  filler_.add_corner(end(last, outline));
+  filler_.add_corner(beams_.end(last, outline));
   filler_.end_chain(seen_outwards(sides));
 }
 
 /// Seen from the sensor the next beams are to the left, unless they are taken clockwise.
 RegionFiller::Sides ScanPainter::seen_outwards(RegionFiller::Sides sides) const {
-  return half_sector_sin_ > 0.0 ? sides : RegionFiller::Sides{.left = sides.right, .right = sides.left};
+  return beams_.turn_left() ? sides : RegionFiller::Sides{.left = sides.right, .right = sides.left};
 }
 
 /// What lies along a side of a beam's sector, from the sensor outwards.
@@ -323,16 +55,11 @@ struct ScanPainter::Layers {
 };
 
 ScanPainter::Layers ScanPainter::layers(std::size_t beam) const {
-  Layers result;
-  if (free_class_[beam] >= 0) {
-    result.free = free_class_[beam];
-    result.free_m = free_.length_m[beam];
-  }
-  if (hit_class_[beam] >= 0) {
-    result.hit = hit_class_[beam];
-    result.near_m = near_.length_m[beam];
-    result.far_m = far_.length_m[beam];
-  }
+  Layers result{.free = free_class(beams_.free_level(beam)), .hit = hit_class(beams_.hit_level(beam))};
+  if (result.free != RegionFiller::kOutside) result.free_m = beams_.free().length_m[beam];
+  if (result.hit == RegionFiller::kOutside) return result;
+  result.near_m = beams_.near().length_m[beam];
+  result.far_m = beams_.far().length_m[beam];
   return result;
 }
 
@@ -355,100 +82,63 @@ void ScanPainter::add_side(const Point& sensor, const Layers& before, const Laye
 /// The side between beams that hit one surface but are trusted differently.
 void ScanPainter::add_joint(std::size_t beam) {
   const Layers before = layers(beam), after = layers(beam + 1);
+  const auto end = [&](const Outline& outline) { return beams_.end(beam, outline); };
   if (before.free != after.free)
-    filler_.add_edge(origin(beam), end(beam, free_), seen_outwards({.left = after.free, .right = before.free}));
+    filler_.add_edge(beams_.origin(beam), end(beams_.free()),
+                     seen_outwards({.left = after.free, .right = before.free}));
   if (before.hit != after.hit)
-    filler_.add_edge(end(beam, near()), end(beam, far_), seen_outwards({.left = after.hit, .right = before.hit}));
+    filler_.add_edge(end(beams_.near()), end(beams_.far()), seen_outwards({.left = after.hit, .right = before.hit}));
 }
 
 /// The sides after a beam: its own and that of the next, which may be one.
 void ScanPainter::add_sides_after(std::size_t beam) {
-  const std::size_t next = beam + 1 < range_m_.size() ? beam + 1 : 0;
-  const auto on_last_side = [&](double length_m) { return side(beam, length_m, 1.0); };
-  const auto on_first_side = [&](double length_m) { return side(next, length_m, -1.0); };
-  if (sine_after_[beam] > 0.0) return add_joint(beam);
-  if (shares_first_side(next)) return add_side(origin(beam), layers(beam), layers(next), on_last_side);
-  add_side(origin(beam), layers(beam), {}, on_last_side);
-  add_side(origin(next), {}, layers(next), on_first_side);
+  const std::size_t next = beam + 1 < beams_.count() ? beam + 1 : 0;
+  const auto on_last_side = [&](double length_m) { return beams_.side(beam, length_m, 1.0); };
+  const auto on_first_side = [&](double length_m) { return beams_.side(next, length_m, -1.0); };
+  if (beams_.is_joined_with_next(beam)) return add_joint(beam);
+  if (beams_.shares_first_side(next)) return add_side(beams_.origin(beam), layers(beam), layers(next), on_last_side);
+  add_side(beams_.origin(beam), layers(beam), {}, on_last_side);
+  add_side(beams_.origin(next), {}, layers(next), on_first_side);
 }
 
 /// Common sides begin where the sensor was for the first of the two: between its places free regions are open.
 void ScanPainter::add_ways_of_sensor() {
-  for (std::size_t beam = 0; beam < range_m_.size(); ++beam)
-    if (free_class_[beam] >= 0 && shares_first_side(beam))
-      filler_.add_edge(origin(beam), origin(before(beam)), seen_outwards({.left = free_class_[beam]}));
+  for (std::size_t beam = 0; beam < beams_.count(); ++beam)
+    if (beams_.free_level(beam) > 0 && beams_.shares_first_side(beam))
+      filler_.add_edge(beams_.origin(beam), beams_.origin(beams_.before(beam)),
+                       seen_outwards({.left = free_class(beams_.free_level(beam))}));
 }
 
 /// What is free and what is occupied, surface by surface: the beams that hit one, or a single one.
 void ScanPainter::add_contours() {
-  for (std::size_t first = 0, last = 0; first < range_m_.size(); first = last + 1) {
-    const int free = free_class_[first], hit = hit_class_[first];
+  for (std::size_t first = 0, last = 0; first < beams_.count(); first = last + 1) {
+    const int free_level = beams_.free_level(first), hit_level = beams_.hit_level(first);
     last = first;
-    while (sine_after_[last] > 0.0 && free_class_[last + 1] == free && hit_class_[last + 1] == hit) ++last;
-    const bool one_outline = free >= 0 && hit >= 0 && near_is_end_of_free_;
-    if (free >= 0) add_outline(free_, first, last, {.left = free, .right = one_outline ? hit : RegionFiller::kOutside});
-    if (hit >= 0) {
-      if (!one_outline) add_outline(near(), first, last, {.right = hit});
-      add_outline(far_, first, last, {.left = hit});
+    while (beams_.is_joined_with_next(last) && beams_.free_level(last + 1) == free_level &&
+           beams_.hit_level(last + 1) == hit_level)
+      ++last;
+    const int free = free_class(free_level), hit = hit_class(hit_level);
+    const bool one_outline = free_level > 0 && hit_level > 0 && beams_.near_is_end_of_free();
+    if (free_level > 0)
+      add_outline(beams_.free(), first, last, {.left = free, .right = one_outline ? hit : RegionFiller::kOutside});
+    if (hit_level > 0) {
+      if (!one_outline) add_outline(beams_.near(), first, last, {.right = hit});
+      add_outline(beams_.far(), first, last, {.left = hit});
     }
     add_sides_after(last);
   }
-  if (moving_) add_ways_of_sensor();
+  if (beams_.sensor_moves()) add_ways_of_sensor();
 }
 
-/// How the outlines lie to each other: whether the occupied part begins as the free one ends, so that one outline will
-/// do for both, and whether all regions lie side by side around one place, with outlines that are the same or apart.
-void ScanPainter::compare_outlines() {
-  const double least_m = kLeastCells * georeference_.resolution_m;
-  int between = 0, close = 0;
-  grids::run_with(
-      grids::best_instructions(), [&]() __attribute__((always_inline)) {
-        int some_between = 0, some_close = 0;
-#pragma GCC ivdep
-        for (std::size_t i = 0; i < range_m_.size(); ++i) {
-          const double free_m = free_.length_m[i], near_m = near_.length_m[i], far_m = far_.length_m[i];
-          const double hit = hit_class_[i] + 1.0, gap_m = near_m - free_m, thick_m = far_m - near_m;
-          const double is_between = gap_m != 0.0 ? hit : 0.0;
-          const double is_thin = (thick_m < least_m) | ((gap_m != 0.0) & (gap_m < least_m)) ? hit : 0.0;
-          const double is_short = (free_m > 0.0) & (free_m < least_m) ? 1.0 : 0.0;
-          some_between += static_cast<int>(is_between);
-          some_close += static_cast<int>(is_thin + is_short);
-        }
-        between = some_between;
-        close = some_close;
-      });
-  near_is_end_of_free_ = between == 0;
-  const double increment = std::abs(range_finder_.angle_increment_rad), around = increment * range_finder_.count;
-  const bool sides_apart =
-      increment > kLeastAngle && (touching_ || increment - 2.0 * params_.max_half_sector_rad > kLeastAngle);
-  apart_ = !moving_ && sides_apart && around <= 2.0 * std::numbers::pi + kRounding && close == 0;
-}
-
-ScanPainter::Counts ScanPainter::paint(grids::EvidentialGrid& grid, PendingRegions& pending, const Pose2& T_map_base,
-                                       const PoseReliability& reliability, std::span<const float> ranges_m,
-                                       const sensors::MotionPath& path, sensors::Timestamp time) {
-  if (ranges_m.size() != range_m_.size())
-    throw std::invalid_argument("a scan has " + std::to_string(ranges_m.size()) + " ranges, its range finder " +
-                                std::to_string(range_m_.size()) + " beams");
-  const Counts counts = classify(ranges_m, reliability);
-  const double moved_m = place(T_map_base, path, time);
-  if (!(moved_m <= std::max(range_finder_.range_max_m, 1.0)))
-    throw std::out_of_range("the motion given with a scan carries the sensor " + std::to_string(moved_m) +
-                            " m away within the scan: leave the motion out or correct it");
-  join();
-  widen();
-  const double reach_m = std::max(greatest(free_.length_m), greatest(far_.length_m)) + moved_m;
-  const Eigen::Vector2d here = T_map_base * range_finder_.T_base_sensor.translation();
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach_m + 2.0 * georeference_.resolution_m);
-  static_cast<void>(georeference_.cell_at(here - margin));
-  static_cast<void>(georeference_.cell_at(here + margin));
-  compare_outlines();
-  measure(free_);
-  measure(far_);
-  if (!near_is_end_of_free_) measure(near_);
+ScanBeams::Counts ScanPainter::paint(grids::EvidentialGrid& grid, PendingRegions& pending,
+                                     const geometry::Pose2& T_map_base, const PoseReliability& reliability,
+                                     std::span<const float> ranges_m, const sensors::MotionPath& path,
+                                     sensors::Timestamp time) {
+  const ScanBeams::Counts counts = beams_.read(T_map_base, reliability, ranges_m, path, time);
   filler_.clear();
   add_contours();
-  filler_.fill(grid, pending, increments_, apart_ ? RegionFiller::Regions::kApart : RegionFiller::Regions::kMayOverlap);
+  filler_.fill(grid, pending, increments_,
+               beams_.are_apart() ? RegionFiller::Regions::kApart : RegionFiller::Regions::kMayOverlap);
   return counts;
 }
 

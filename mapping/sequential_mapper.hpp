@@ -92,7 +92,7 @@ class SequentialMapper {
       return;
     }
     grids::EvidentialGrid one(params_.georeference);
-    const ScanPainter::Counts counts = scans_[static_cast<std::size_t>(scan.sensor)].paint(
+    const ScanBeams::Counts counts = scans_[static_cast<std::size_t>(scan.sensor)].paint(
         one, pending_, T_map_base.value.pose, reliability, scan.ranges_m, path, scan.time);
     counts_.echoes += counts.echoes;
     counts_.no_returns += counts.no_returns;

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The Credo Authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "grids/georeference.hpp"
+#include "mapping/laser_tables.hpp"
+#include "mapping/pose_reliability.hpp"
+#include "mapping/region_filler.hpp"
+#include "mapping/scan_params.hpp"
+#include "sensors/motion_path.hpp"
+#include "sensors/range_finder.hpp"
+
+namespace credo::mapping {
+
+/// The beams of one scan: what each says, how strongly, and of which sector of the plane. An array for each of their
+/// properties, as most is worked out for many beams at a time. Keeps tables and working memory between scans.
+class ScanBeams {
+ public:
+  /// Readings of a scan by what they are.
+  struct Counts {
+    int echoes = 0, no_returns = 0, missing = 0, out_of_range = 0;
+  };
+  /// A line over the ends of the beams: of their free part, or the near or the far side of the occupied one.
+  struct Outline {
+    std::vector<double> length_m;  ///< of each beam up to it
+    std::vector<double> x, y;      ///< where the beams meet it, in cells
+  };
+  using Point = RegionFiller::Corner;
+
+  /// \throws std::invalid_argument if the resolution does not fit the range finder, or its description cannot be used.
+  ScanBeams(const sensors::RangeFinder& range_finder, const grids::Georeference& georeference, LaserTables tables,
+            const ScanParams& params);
+
+  /// Takes a scan in; all that follows is of the latest.
+  /// \param T_map_base  at `time`; `path` carries it to when each beam was taken
+  /// \param ranges_m    one for each beam
+  /// \throws std::invalid_argument if they are not; std::out_of_range if the pose is too far away to be addressed
+  Counts read(const geometry::Pose2& T_map_base, const PoseReliability& reliability, std::span<const float> ranges_m,
+              const sensors::MotionPath& path, sensors::Timestamp time);
+
+  [[nodiscard]] const LaserTables& tables() const { return tables_; }
+  [[nodiscard]] std::size_t count() const { return range_m_.size(); }
+  [[nodiscard]] std::size_t before(std::size_t beam) const { return beam > 0 ? beam - 1 : count() - 1; }
+
+  /// The level of evidence for what is free, and for what is occupied, from 1 to kLevels; 0: there is none.
+  [[nodiscard]] int free_level(std::size_t beam) const { return free_level_[beam]; }
+  [[nodiscard]] int hit_level(std::size_t beam) const { return hit_level_[beam]; }
+  [[nodiscard]] const Outline& free() const { return free_; }
+  [[nodiscard]] const Outline& near() const { return near_is_end_of_free_ ? free_ : near_; }
+  [[nodiscard]] const Outline& far() const { return far_; }
+
+  /// Whether what a beam hits is on one surface with what the next one does.
+  [[nodiscard]] bool is_joined_with_next(std::size_t beam) const { return sine_after_[beam] > 0.0; }
+  /// Whether a sector begins where the one before it ends. The first of a sensor that moves begins elsewhere.
+  [[nodiscard]] bool shares_first_side(std::size_t beam) const;
+
+  /// Where the sensor was for a beam, in cells.
+  [[nodiscard]] Point origin(std::size_t beam) const { return {origin_x_[beam], origin_y_[beam]}; }
+  /// A place on a side of a beam's sector. \param turn  1: the last side in the order of the beams, -1: the first
+  [[nodiscard]] Point side(std::size_t beam, double length_m, double turn) const;
+  /// Where an outline enters a beam's sector. Sectors that touch have their side in common, to the last digit.
+  [[nodiscard]] Point start(std::size_t beam, const Outline& outline) const;
+  /// Where it leaves it: half-way to the next beam where both hit one surface.
+  [[nodiscard]] Point end(std::size_t beam, const Outline& outline) const;
+
+  [[nodiscard]] bool turn_left() const { return half_sector_sin_ > 0.0; }
+  [[nodiscard]] bool sensor_moves() const { return moving_; }
+  /// The occupied part of every beam begins as the free one ends: one outline will do for both.
+  [[nodiscard]] bool near_is_end_of_free() const { return near_is_end_of_free_; }
+  /// All regions lie side by side around one place, with outlines that are the same or clearly apart.
+  [[nodiscard]] bool are_apart() const { return apart_; }
+
+ private:
+  Counts look_up(std::span<const float> ranges_m);
+  Counts classify(std::span<const float> ranges_m, const PoseReliability& reliability);
+  void classify_no_returns(std::span<const float> ranges_m, const PoseReliability& reliability);
+  double place(const geometry::Pose2& T_map_base, const sensors::MotionPath& path, sensors::Timestamp time);
+  void set_pose(std::size_t begin, std::size_t end, const geometry::Pose2& sensor);
+  void join();
+  void widen();
+  void measure(Outline& outline) const;
+  void compare_outlines();
+
+  sensors::RangeFinder range_finder_;
+  grids::Georeference georeference_;
+  LaserTables tables_;
+  ScanParams params_;
+  double cells_per_metre_ = 0.0;
+  double half_sector_cos_ = 1.0, half_sector_sin_ = 0.0;  // of half the angle between beams, at most
+  bool touching_ = false;                                 // sectors reach half-way to their neighbours
+  bool all_round_ = false;                                // so do the last one and the first
+  std::vector<double> sensor_x_, sensor_y_;               // directions of the beams in the sensor frame
+
+  // The scan at hand.
+  bool moving_ = false, near_is_end_of_free_ = false, apart_ = false;
+  std::vector<double> origin_x_, origin_y_;                  // in cells
+  std::vector<double> direction_x_, direction_y_;            // unit vectors
+  std::vector<double> echo_;                                 // 1 with an echo, 0 without
+  std::vector<double> range_m_;                              // 0 without an echo
+  std::vector<double> margin_m_, half_width_m_, hit_share_;  // from the tables
+  Outline free_, near_, far_;
+  std::vector<int> free_level_, hit_level_;
+  std::vector<double> sine_before_, sine_after_;  // of the incidence on the surface shared with a neighbour; 0: none
+};
+
+}  // namespace credo::mapping
