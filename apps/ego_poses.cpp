@@ -3,39 +3,18 @@
 
 #include "apps/ego_poses.hpp"
 
-#include <optional>
-#include <stdexcept>
-
 #include "apps/interrupt.hpp"
 #include "apps/terminal.hpp"
-#include "datasets/acquisitions.hpp"
-#include "localization/ego_motion.hpp"
-#include "perception/observer.hpp"
+#include "evaluation/ego_trajectory.hpp"
 
 namespace credo::apps {
 
 std::vector<datasets::TimedPose> ego_poses(const datasets::Dataset& dataset) {
-  sensors::Rig rig = dataset.header.rig;
-  rig.camera.reset();
-  if (rig.range_finders.empty() && !rig.odometry)
-    throw std::runtime_error(dataset.header.name +
-                             ": ego-motion needs a range finder or odometry, and there is neither");
-  const datasets::Acquisitions acquisitions(dataset);
-  perception::Observer observer(rig);
-  localization::EgoMotion ego_motion(dataset.header.initial_pose.value_or(geometry::PoseEstimate{}));
-  std::vector<datasets::TimedPose> poses;
-  poses.reserve(acquisitions.size());
   Progress progress("following " + dataset.header.name);
-  std::optional<sensors::Timestamp> previous;
-  for (const sensors::Timestamp time : acquisitions.times()) {
+  return evaluation::ego_trajectory(dataset, [&](double share) {
     Interruptible::check();
-    const sensors::Acquisition acquisition = datasets::gather(dataset, previous, time, std::nullopt);
-    ego_motion.update(observer.observe(acquisition), acquisition.motion);
-    poses.push_back({time, ego_motion.pose().value.pose});
-    previous = time;
-    progress.update(static_cast<double>(poses.size()) / static_cast<double>(acquisitions.size()));
-  }
-  return poses;
+    progress.update(share);
+  });
 }
 
 }  // namespace credo::apps

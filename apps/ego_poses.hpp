@@ -9,9 +9,7 @@
 
 namespace credo::apps {
 
-/// Where the robot has been by ego-motion: by its first range finder and odometry, where there are such, and from
-/// the pose that the dataset begins with, or (0, 0, 0) where it tells none. One pose for each acquisition; images are
-/// not read. \throws std::runtime_error  where the robot has neither
+/// evaluation::ego_trajectory with a progress bar, which an interrupt ends.
 [[nodiscard]] std::vector<datasets::TimedPose> ego_poses(const datasets::Dataset& dataset);
 
 }  // namespace credo::apps

@@ -31,9 +31,7 @@ std::vector<ZhuSetting> zhu_settings() {
 }
 
 MapMethod method_of(const ZhuSetting& s, Approximation approximation) {
-  mapping::TrajectoryMappingParams params;
-  params.mapper.sonar = mapping::ZhuParams{.rho = s.rho, .cells_of_arc = s.n};
-  return {"", params,
+  return {"", evaluation::as_in_papers(mapping::ZhuParams{.rho = s.rho, .cells_of_arc = s.n}),
           mapping::ApproximatedDempsterFold{{.e1 = s.e, .e2 = s.e, .e3 = s.e, .approximation = approximation}}};
 }
 
@@ -69,13 +67,15 @@ struct BestOnOthers {
   std::string settings;
 };
 
-/// For each seed the setting that is best over the other seeds, and what it leaves wrong on this one.
+/// For each seed the setting that is best over the other seeds, and what it leaves wrong on this one; nothing of a
+/// single seed.
 BestOnOthers best_on_other_seeds(const Wrong& all, const std::vector<ZhuSetting>& settings, std::size_t seeds) {
   BestOnOthers best;
+  if (seeds < 2) return {{}, "takes two seeds or more"};
   for (std::size_t seed = 0; seed < seeds; ++seed) {
     const auto on_others = [&](std::size_t s) {
       double sum = 0.0;
-      for (std::size_t other = 0; other < seeds; ++other) sum += other == seed && seeds > 1 ? 0.0 : all[s][other];
+      for (std::size_t other = 0; other < seeds; ++other) sum += other == seed ? 0.0 : all[s][other];
       return sum;
     };
     std::size_t chosen = 0;
@@ -130,17 +130,19 @@ const char* const kWhyZhu =
     "holds "
     "for every m2 but the one of n = 1, which is total conflict.";
 
-}  // namespace
+/// Wrong cells by criterion.
+using WrongByCriterion = std::array<WrongByAll, kCriteria.size()>;
 
-MapReport reproduce_zhu(const ExperimentParams& params, const Report& report) {
+/// Maps all seeds by all settings.
+/// \param shown  gets maps of the first seed
+WrongByCriterion count_wrong(const ExperimentParams& params, const std::vector<ZhuSetting>& all,
+                             std::vector<ShownMap>& shown, const Report& report) {
   const sim::World world = sim::load_world(find_shipped("zhu", kWorlds));
-  const std::vector<ZhuSetting> all = zhu_settings();
   const int maps = params.seeds * static_cast<int>(all.size() * kApproximations.size());
-  const std::size_t seeds = static_cast<std::size_t>(params.seeds);
-  std::array<WrongByAll, kCriteria.size()> wrong_cells;
+  const auto seeds = static_cast<std::size_t>(params.seeds);
+  WrongByCriterion wrong_cells;
   for (WrongByAll& by_approximation : wrong_cells)
     for (Wrong& by_setting : by_approximation) by_setting.assign(all.size(), std::vector<double>(seeds));
-  MapReport result;
   int done = 0;
   for (std::size_t i = 0; i < seeds; ++i) {
     const MapDrive drive = evaluation::play_for_mapping(world, params.seed + i);
@@ -150,13 +152,21 @@ MapReport reproduce_zhu(const ExperimentParams& params, const Report& report) {
         for (const Criterion criterion : kCriteria)
           wrong_cells[criterion][a][s][i] = wrong_count(map.map, drive.truth, criterion);
         if (i == 0 && all[s].e == 0.1 && all[s].rho == 0.3 && all[s].n == 20.0)
-          result.maps.push_back(
-              {kApproximationNames[a],
-               fmt::format("{}: {:.0f} wrong cells", setting_words(all[s]), wrong_cells[kByRule][a][s][i]),
-               evaluation::decided_by_zhu(map.map)});
+          shown.push_back({kApproximationNames[a],
+                           fmt::format("{}: {:.0f} wrong cells", setting_words(all[s]), wrong_cells[kByRule][a][s][i]),
+                           evaluation::decided_by_zhu(map.map)});
         report(++done, maps);
       }
   }
+  return wrong_cells;
+}
+
+}  // namespace
+
+MapReport reproduce_zhu(const ExperimentParams& params, const Report& report) {
+  const std::vector<ZhuSetting> all = zhu_settings();
+  MapReport result;
+  const WrongByCriterion wrong_cells = count_wrong(params, all, result.maps, report);
   MapTable claim{"fewer wrong cells than with the fixed approximation, median over all settings and seeds",
                  {{"median %", 1, 100.0}},
                  {}};
@@ -166,7 +176,8 @@ MapReport reproduce_zhu(const ExperimentParams& params, const Report& report) {
     MapRow& row = result.tables[0].rows.emplace_back(empty_row(kCriterionNames[criterion], "20", 1));
     if (const auto shares = reductions(wrong_cells[criterion]); !shares.empty()) row.values[0].add(median_of(shares));
     for (const std::size_t a : {0U, 1U}) {
-      const BestOnOthers own = best_on_other_seeds(wrong_cells[criterion][a], all, seeds);
+      const BestOnOthers own =
+          best_on_other_seeds(wrong_cells[criterion][a], all, static_cast<std::size_t>(params.seeds));
       result.tables[1].rows.push_back(
           {fmt::format("{}, {} ({})", kCriterionNames[criterion], kApproximationNames[a], own.settings),
            "",

@@ -4,8 +4,10 @@
 #include "evaluation/map_experiment.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
+#include "evaluation/ego_trajectory.hpp"
 #include "evaluation/simulated_drive.hpp"
 
 namespace credo::evaluation {
@@ -25,18 +27,49 @@ std::vector<Reading> joined(std::vector<std::vector<Reading>>&& by_sensor) {
   return all;
 }
 
+sensors::MotionPath path_of(std::span<const datasets::TimedPose> poses) {
+  std::vector<sensors::OdometryReading> rows;
+  for (const datasets::TimedPose& row : poses) rows.push_back({row.time, row.pose});
+  return sensors::MotionPath(std::move(rows));
+}
+
+/// What was read, along given poses.
+MapDrive drive_along(sensors::MotionPath T_map_base, datasets::Dataset&& readings, datasets::OccupancyMap truth) {
+  return {.T_map_base = std::move(T_map_base),
+          .rig = readings.header.rig,
+          .scans = joined(std::move(readings.scans)),
+          .sweeps = joined(std::move(readings.sonar)),
+          .truth = std::move(truth)};
+}
+
 }  // namespace
 
 MapDrive play_for_mapping(const sim::World& world, std::uint64_t seed) {
   const sim::Simulation simulation(world, seed);
   datasets::Dataset readings = readings_of(simulation);
-  std::vector<sensors::OdometryReading> poses;
-  for (const datasets::TimedPose& row : readings.truth) poses.push_back({row.time, row.pose});
-  return {.T_map_base = sensors::MotionPath(std::move(poses)),
-          .rig = readings.header.rig,
-          .scans = joined(std::move(readings.scans)),
-          .sweeps = joined(std::move(readings.sonar)),
-          .truth = true_map_of(simulation)};
+  sensors::MotionPath path = path_of(readings.truth);
+  return drive_along(std::move(path), std::move(readings), true_map_of(simulation));
+}
+
+EgoMotionDrive play_with_ego_motion(const sim::World& world, std::uint64_t seed) {
+  const sim::Simulation simulation(world, seed);
+  datasets::Dataset readings = readings_of(simulation);
+  const sensors::MotionPath truth = path_of(readings.truth);
+  const std::vector<datasets::TimedPose> poses = ego_trajectory(readings);
+  EgoMotionDrive result;
+  for (const datasets::TimedPose& row : poses) {
+    result.last_error_m = (row.pose.translation() - truth.pose_at(row.time).translation()).norm();
+    result.mean_error_m += result.last_error_m / static_cast<double>(poses.size());
+  }
+  result.drive = drive_along(path_of(poses), std::move(readings), true_map_of(simulation));
+  return result;
+}
+
+mapping::TrajectoryMappingParams as_in_papers(const mapping::SonarParams& sonar) {
+  mapping::TrajectoryMappingParams params;
+  params.mapper.sonar = sonar;
+  params.mapper.freshness.correlation = 0.0;
+  return params;
 }
 
 MapDrive first_part(const MapDrive& drive, double seconds) {

@@ -26,6 +26,18 @@ struct MapDrive {
 
 /// Plays a world with its true poses.
 [[nodiscard]] MapDrive play_for_mapping(const sim::World& world, std::uint64_t seed);
+
+/// A drive with the poses of its ego-motion, and how far these are from the true ones.
+struct EgoMotionDrive {
+  MapDrive drive;
+  double mean_error_m = 0.0;
+  double last_error_m = 0.0;
+};
+/// Plays a world; its poses are those of ego_trajectory(), from the start that the world tells.
+[[nodiscard]] EgoMotionDrive play_with_ego_motion(const sim::World& world, std::uint64_t seed);
+
+/// Parameters by which every reading counts in full: the papers know of no errors that readings repeat.
+[[nodiscard]] mapping::TrajectoryMappingParams as_in_papers(const mapping::SonarParams& sonar);
 /// The readings up to a time after the first one. [s]
 [[nodiscard]] MapDrive first_part(const MapDrive& drive, double seconds);
 

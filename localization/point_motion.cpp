@@ -37,14 +37,15 @@ Centres centres_of(std::span<const PointPair> pairs) {
                               std::to_string(pairs.size()) + " pairs" + found);
 }
 
-/// Points nearer to their centre than rounding can tell are one.
+/// Points nearer to their centre than rounding can tell are one; before or now.
 bool at_one_place(std::span<const PointPair> pairs, const Centres& centre) {
-  double spread = 0.0, scale = 0.0;
+  double spread_before = 0.0, spread_now = 0.0, scale = 0.0;
   for (const PointPair& pair : pairs) {
-    spread = std::max({spread, (pair.before - centre.before).norm()});
+    spread_before = std::max(spread_before, (pair.before - centre.before).norm());
+    spread_now = std::max(spread_now, (pair.now - centre.now).norm());
     scale = std::max({scale, pair.before.norm(), pair.now.norm()});
   }
-  return spread <= 1e-12 * scale;
+  return std::min(spread_before, spread_now) <= 1e-12 * scale;
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST_F(ReproduceCommand, TheMappingPapersAreReproducedToTheByte) {
     EXPECT_GE(report["tables"].size(), 2u);
   }
   EXPECT_THAT(credo("reproduce sonar --seeds 1").out,
-              HasSubstr("differently from the same masses, over all seeds: 0."));
+              HasSubstr("over all seeds and both ways: 0 as logarithms of commonalities;"));
 }
 
 TEST_F(ReproduceCommand, ReproducePutsThePaperBesideBothMethodsOnTheSameReadings) {

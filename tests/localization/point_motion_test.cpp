@@ -109,6 +109,10 @@ TEST(PointMotion, RefusesPointsThatTellNoTurn) {
   EXPECT_THAT([&] { (void)point_motion(one); }, ThrowsMessage<std::invalid_argument>(HasSubstr("found 1 pairs")));
   EXPECT_THAT([&] { (void)point_motion_estimate(same); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("3 pairs at a single place")));
+  const std::vector<PointPair> met{{.before = {0.0, 0.0}, .now = {2.0, 2.0}},
+                                   {.before = {1.0, 0.0}, .now = {2.0, 2.0}}};
+  EXPECT_THAT([&] { (void)point_motion_estimate(met); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("2 pairs at a single place")));
   std::vector<PointPair> broken{pair, {.before = {0.0, std::numeric_limits<double>::quiet_NaN()}, .now = {}}};
   EXPECT_THAT([&] { (void)point_motion(broken); }, ThrowsMessage<std::invalid_argument>(HasSubstr("not all finite")));
 }
