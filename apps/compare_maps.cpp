@@ -114,9 +114,11 @@ std::string changes_text(const std::vector<MapLine>& lines) {
     if (text.empty())
       text = fmt::format("\n{:<8} {:<14} {:>14} {:>14} {:>16}\n", "model", "rule", "after 3 sweeps", "after 5 sweeps",
                          "unchanged wrong");
-    text +=
-        fmt::format("{:<8} {:<14} {:>13.2f}% {:>13.2f}% {:>15.3f}%\n", l.model, l.rule, 100.0 * l.changes->followed_3(),
-                    100.0 * l.changes->followed_5(), 100.0 * l.changes->wrong_share());
+    const auto share = [](double value, int decimals) {
+      return std::isnan(value) ? std::string("-") : fmt::format("{:.{}f}%", 100.0 * value, decimals);
+    };
+    text += fmt::format("{:<8} {:<14} {:>14} {:>14} {:>16}\n", l.model, l.rule, share(l.changes->followed_3(), 2),
+                        share(l.changes->followed_5(), 2), share(l.changes->wrong_share(), 3));
   }
   if (text.empty()) return text;
   return text +
@@ -153,15 +155,22 @@ ordered_json json_of(const MapLine& l) {
           {"unchanged_wrong", number_or_null(l.changes ? std::optional(l.changes->wrong_share()) : std::nullopt)}};
 }
 
+/// Empty fields where nothing changed.
+std::string changes_csv(const MapLine& l) {
+  const auto field = [](double value) { return std::isnan(value) ? std::string() : fmt::format("{:.6f}", value); };
+  if (!l.changes) return ",,";
+  return field(l.changes->followed_3()) + "," + field(l.changes->followed_5()) + "," + field(l.changes->wrong_share());
+}
+
 std::string csv_of(const std::vector<MapLine>& lines) {
   std::string csv =
       "#model,rule,cells,decided,accuracy_of_decided,accuracy,brier,log_loss,conflict,ignorance,contour [m],missed [m],"
-      "abandoned,time [ms]\n";
+      "abandoned,time [ms],followed after 3,followed after 5,unchanged wrong\n";
   for (const MapLine& l : lines)
-    csv += fmt::format("{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{},{:.3f}\n", l.model,
-                       l.rule, l.score.cells, l.score.decided_share(), l.score.accuracy_of_decided(),
+    csv += fmt::format("{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{},{:.3f},{}\n",
+                       l.model, l.rule, l.score.cells, l.score.decided_share(), l.score.accuracy_of_decided(),
                        l.score.accuracy(), l.score.brier, l.score.log_loss, l.score.conflict, l.score.ignorance,
-                       l.score.contour_m, l.score.missed_m, l.map.abandoned, l.milliseconds);
+                       l.score.contour_m, l.score.missed_m, l.map.abandoned, l.milliseconds, changes_csv(l));
   return csv;
 }
 

@@ -23,6 +23,7 @@ using State = TrueCells::State;
 /// The map that no order changes as a fold, to be looked at in between.
 struct SumFold {
   using Cell = evidence::FixedLogCommonality;
+  static constexpr bool kForgets = false;
 
   [[nodiscard]] bool update(Cell& cell, const GridMass& reading, sensors::Timestamp = 0) const {
     cell += evidence::fixed_increment(reading, 1.0);
@@ -38,6 +39,7 @@ struct Counted {
     typename Rule::Cell of_rule{};
     int sweeps = 0;
   };
+  static constexpr bool kForgets = Rule::kForgets;
   Rule rule;
 
   [[nodiscard]] bool update(Cell& cell, const GridMass& reading, sensors::Timestamp time) const {

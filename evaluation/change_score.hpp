@@ -23,12 +23,14 @@ struct ChangeScore {
   std::int64_t unchanged = 0;  ///< cells that are the same in all states and were seen in five sweeps
   std::int64_t wrong = 0;      ///< of them, at the end
 
-  [[nodiscard]] double followed_3() const { return changed_3 > 0 ? double(right_3) / double(changed_3) : 0.0; }
-  [[nodiscard]] double followed_5() const { return changed_5 > 0 ? double(right_5) / double(changed_5) : 0.0; }
-  [[nodiscard]] double wrong_share() const { return unchanged > 0 ? double(wrong) / double(unchanged) : 0.0; }
+  /// Shares; nan of nothing.
+  [[nodiscard]] double followed_3() const { return static_cast<double>(right_3) / static_cast<double>(changed_3); }
+  [[nodiscard]] double followed_5() const { return static_cast<double>(right_5) / static_cast<double>(changed_5); }
+  [[nodiscard]] double wrong_share() const { return static_cast<double>(wrong) / static_cast<double>(unchanged); }
 };
 
-/// Maps the scans in the order of their times by a rule, and looks after each.
+/// Maps the scans by a rule, as map_along does, and looks after each.
+/// \param scans   by time
 /// \param states  of the world, by time
 /// \throws std::invalid_argument if there is no state, or the trajectory is empty
 [[nodiscard]] ChangeScore change_score(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,

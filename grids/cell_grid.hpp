@@ -17,9 +17,12 @@ namespace credo::grids {
 template <typename Cell>
 class CellGrid {
  public:
+  static constexpr std::size_t kMostBytes = std::size_t{1} << 31;
+
+  /// \param most_bytes  that its tiles may take
   /// \throws std::invalid_argument as EvidentialGrid.
-  explicit CellGrid(const Georeference& georeference, std::size_t most_tiles = EvidentialGrid::kMostTiles)
-      : georeference_(EvidentialGrid(georeference).georeference()), most_tiles_(most_tiles) {}
+  explicit CellGrid(const Georeference& georeference, std::size_t most_bytes = kMostBytes)
+      : georeference_(EvidentialGrid(georeference).georeference()), most_tiles_(most_bytes / sizeof(Tile)) {}
 
   [[nodiscard]] const Georeference& georeference() const { return georeference_; }
 
@@ -57,8 +60,10 @@ class CellGrid {
     const auto found = tiles_.find(index);
     if (found != tiles_.end()) return found->second;
     if (tiles_.size() >= most_tiles_)
-      throw std::length_error("the map may hold " + std::to_string(most_tiles_) +
-                              " tiles: choose a coarser resolution, or look for a pose that is far off");
+      throw std::length_error("the map has grown to " + std::to_string(most_tiles_ * grids::Tile::kCells) +
+                              " cells of " + std::to_string(sizeof(Cell)) +
+                              " bytes, and larger it may not become: choose a coarser resolution, or look for a pose "
+                              "that is far off");
     return tiles_[index];
   }
 

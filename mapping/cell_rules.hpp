@@ -13,19 +13,23 @@ namespace credo::mapping {
 
 /// How a cell takes readings in, one after the other: a fold. Its result depends on their order, unlike that of
 /// evidence::FixedLogCommonality, which stands for all rules that do not. A new `Cell` is vacuous. `time` is that of
-/// the reading.
+/// the reading. A rule forgets if the latest readings outweigh what it holds however much that is; such a one takes
+/// each reading in full, as it could not follow from a robot at rest otherwise (Freshness).
 template <typename Rule>
 concept CellRule = requires(const Rule& rule, typename Rule::Cell& cell, const typename Rule::Cell& known,
                             const evidence::GridMass& reading, sensors::Timestamp time) {
   /// False where the reading was abandoned: total conflict, the cell is as it was.
   { rule.update(cell, reading, time) } -> std::same_as<bool>;
   { rule.masses(known) } -> std::same_as<evidence::GridMass>;
+  requires std::same_as<decltype(Rule::kForgets), const bool>;
 };
 
 /// DSm classic rule in linear masses (Li X. 2007, eq. (4)): the masses of both elements tend to 0 as the conflict
 /// absorbs.
 struct DsmcFold {
   using Cell = evidence::GridMass;
+  static constexpr bool kForgets = false;
+
   [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell; }
 };
@@ -33,6 +37,8 @@ struct DsmcFold {
 /// Dempster's rule (Li X. 2007, eq. (12)); a sensor's own conflict is conflict.
 struct DempsterFold {
   using Cell = evidence::GridMass;
+  static constexpr bool kForgets = false;
+
   [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell; }
 };
@@ -40,6 +46,8 @@ struct DempsterFold {
 /// PCR2 (Li P., eq. (6)).
 struct Pcr2Fold {
   using Cell = evidence::GridMass;
+  static constexpr bool kForgets = true;
+
   [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell; }
 };
@@ -47,6 +55,8 @@ struct Pcr2Fold {
 /// PCR5, which is PCR6 here.
 struct Pcr5Fold {
   using Cell = evidence::GridMass;
+  static constexpr bool kForgets = true;
+
   [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell; }
 };
@@ -54,6 +64,8 @@ struct Pcr5Fold {
 /// DSm hybrid rule: what contradicts goes to ignorance.
 struct DsmhFold {
   using Cell = evidence::GridMass;
+  static constexpr bool kForgets = true;
+
   [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell; }
 };
@@ -62,6 +74,7 @@ struct DsmhFold {
 /// divided out), as close to 0 and 1 as `certain_at`.
 struct BayesFold {
   using Cell = double;  ///< ln (P(occupied) / P(empty)), from 0
+  static constexpr bool kForgets = false;
   double certain_at = 1e-6;
 
   [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
@@ -93,6 +106,7 @@ struct ApproximatedDempsterFold {
     evidence::GridMass mass;
     std::int32_t found_empty = 0, found_full = 0;
   };
+  static constexpr bool kForgets = false;
   ApproximationParams params;
 
   [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;

@@ -20,14 +20,22 @@ struct ChangingParams {
   double changed_at = 0.97;  ///< belief in the opposite, of all readings since the first contradiction, from which the
                              ///< cell has changed: two readings of a laser that agree
   double settles_until = 0.5;  ///< belief in the state, of the same readings, from which the contradiction was noise
+  /// Belief in the opposite that a contradiction has to have left: one that has aged below it says nothing any more
+  /// together with another.
+  double contradicts_above = 0.5;
 };
 
 /// A cell of a world that changes: DSm hybrid rule over time. "Empty and occupied" is nothing at one moment, so what a
 /// reading contradicts goes to ignorance as long as the cell is in no state; but a cell can have been empty and be
 /// occupied. So the first reading that contradicts a settled cell begins a second account, of the readings from then
 /// on: if they agree on the opposite, the cell has changed, at the time of that first reading; if they come back to
-/// what the cell was, it was noise.
+/// what the cell was, it was noise. Both age: what was long ago is held against nothing. A cell that was forgotten and
+/// is found in the other state has changed, too, since it was found.
 struct ChangingFold {
+  /// Forgets by itself: of a robot at rest each reading counts in full.
+  static constexpr bool kForgets = true;
+
+  enum class State : std::uint8_t { kNone, kEmpty, kOccupied };
   struct Cell {
     evidence::GridMass mass;              ///< what is
     evidence::GridMass account;           ///< of the readings since `contradicted`
@@ -35,13 +43,20 @@ struct ChangingFold {
     sensors::Timestamp since = 0;         ///< settled in its state from then on
     sensors::Timestamp contradicted = 0;  ///< first reading of the account
     std::int32_t changes = 0;
-    bool settled = false;
-    bool open = false;  ///< an account is open
+    State state = State::kNone;  ///< the latest that it was settled in
+    bool was_seen = false;
+    bool settled = false;  ///< it is in its state now
+    bool open = false;     ///< an account is open
   };
   ChangingParams params;
 
   [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell.mass; }
+
+ private:
+  void age(Cell& cell, sensors::Timestamp time) const;
+  [[nodiscard]] bool settle(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time) const;
+  [[nodiscard]] bool keep_account(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time) const;
 };
 static_assert(CellRule<ChangingFold>);
 

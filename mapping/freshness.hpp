@@ -16,6 +16,9 @@ struct FreshnessParams {
   double correlation = 0.1;
   double way_m = 0.01;      ///< after this way what was said is forgotten to 1 / e: the place is another one,
   double turn_rad = 0.005;  ///< or after this turn
+  /// A pose that stays within these of where the robot came to rest has not moved: localized poses are not that sure.
+  double still_m = 0.01;
+  double still_rad = 0.015;
 };
 
 /// How much of a reading is new. Readings from one place repeat what they do not see rightly there (specular walls,
@@ -24,11 +27,13 @@ struct FreshnessParams {
 ///     g(n) = n / (1 + (n - 1) correlation)
 ///
 /// independent ones (the design effect of Kish 1965), and the next one adds g(n + 1) - g(n). n is what has
-/// been read from here: it fades by exp(-way / way_m - turn / turn_rad) from each reading of a sensor to its next.
-/// A pure function of the poses of each sensor's readings in the order of their times.
+/// been read from here: it fades by exp(-way / way_m - turn / turn_rad) with the way and the turn from where the
+/// sensor's readings were, once these are more than nothing. In the map shares are rounded to steps of a reliability of
+/// 1/32. A pure function of the poses of each sensor's readings in the order of their times.
 class Freshness {
  public:
-  /// \throws std::invalid_argument unless 0 <= correlation < 1 and way_m and turn_rad are above 0.
+  /// \throws std::invalid_argument unless 0 <= correlation < 1, way_m and turn_rad are above 0 and still_m and
+  ///         still_rad not below.
   explicit Freshness(const FreshnessParams& params = {});
 
   /// The share of the sensor's next reading that is new, in (0, 1], rounded to a power of a half, so that few tables of
@@ -42,8 +47,8 @@ class Freshness {
 
  private:
   struct Place {
-    geometry::Pose2 T_map_base;
-    double read = 0.0;  ///< n, from here
+    geometry::Pose2 T_map_base;  ///< where it came to rest, or was last
+    double read = 0.0;           ///< n, from here
   };
   [[nodiscard]] double of_next(Place& place, const geometry::Pose2& T_map_base) const;
 

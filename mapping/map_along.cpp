@@ -25,10 +25,9 @@ void insert_in_batches(std::size_t count, const Insert& insert, const Done& done
   }
 }
 
-/// How much of each reading is new, in the order that they are given in; 1 of what has no pose.
 template <typename Reading>
-std::vector<double> new_shares(const sensors::MotionPath& T_map_base, std::span<const Reading> readings,
-                               const TrajectoryMappingParams& params) {
+std::vector<double> shares_by_time(const sensors::MotionPath& T_map_base, std::span<const Reading> readings,
+                                   const TrajectoryMappingParams& params) {
   std::vector<std::size_t> by_time(readings.size());
   std::iota(by_time.begin(), by_time.end(), std::size_t{0});
   std::stable_sort(by_time.begin(), by_time.end(),
@@ -60,6 +59,16 @@ bool covers(const sensors::MotionPath& trajectory, sensors::Timestamp time, doub
   const bool before_is_near = after != rows.begin() && near(*(after - 1));
   const bool after_is_near = after != rows.end() && near(*after);
   return before_is_near || after_is_near;
+}
+
+std::vector<double> new_shares(const sensors::MotionPath& T_map_base, std::span<const sensors::RangeScan> scans,
+                               const TrajectoryMappingParams& params) {
+  return shares_by_time(T_map_base, scans, params);
+}
+
+std::vector<double> new_shares(const sensors::MotionPath& T_map_base, std::span<const sensors::SonarSweep> sweeps,
+                               const TrajectoryMappingParams& params) {
+  return shares_by_time(T_map_base, sweeps, params);
 }
 
 TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,

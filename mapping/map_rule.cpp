@@ -7,6 +7,7 @@
 #include <array>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "mapping/sequential_mapper.hpp"
 
@@ -31,14 +32,25 @@ const std::array kRules{
     NamedRule{"changing", ChangingFold{}, "DSm hybrid rule over time: what was empty may be occupied now"},
 };
 
+/// By time; those of equal times as they were given.
+template <typename Reading>
+std::vector<const Reading*> by_time(std::span<const Reading> readings) {
+  std::vector<const Reading*> sorted;
+  for (const Reading& reading : readings) sorted.push_back(&reading);
+  std::ranges::stable_sort(sorted, {}, [](const Reading* reading) { return reading->time; });
+  return sorted;
+}
+
 /// Calls insert(reading) in the order of the times; scans before sweeps.
 template <typename Insert>
-void in_order(std::span<const sensors::RangeScan> scans, std::span<const sensors::SonarSweep> sweeps,
+void in_order(std::span<const sensors::RangeScan> all_scans, std::span<const sensors::SonarSweep> all_sweeps,
               const Insert& insert) {
+  const auto scans = by_time(all_scans);
+  const auto sweeps = by_time(all_sweeps);
   std::size_t scan = 0, sweep = 0;
   while (scan < scans.size() || sweep < sweeps.size()) {
-    const bool take_scan = sweep >= sweeps.size() || (scan < scans.size() && scans[scan].time <= sweeps[sweep].time);
-    take_scan ? insert(scans[scan++]) : insert(sweeps[sweep++]);
+    const bool take_scan = sweep >= sweeps.size() || (scan < scans.size() && scans[scan]->time <= sweeps[sweep]->time);
+    take_scan ? insert(*scans[scan++]) : insert(*sweeps[sweep++]);
   }
 }
 
@@ -68,15 +80,13 @@ RuleMap fold_along(const sensors::MotionPath& T_map_base, const sensors::Rig& ri
   const double all = static_cast<double>(scans.size() + sweeps.size());
   std::int64_t without_pose = 0;
   std::size_t done = 0;
-  Freshness freshness(params.mapper.freshness);
   in_order(scans, sweeps, [&](const auto& reading) {
     if (progress && ++done % kReportEvery == 0) progress(static_cast<double>(done) / all);
     if (!covers(T_map_base, reading.time, params.max_gap_s)) {
       ++without_pose;
       return;
     }
-    const geometry::Pose2 pose = T_map_base.pose_at(reading.time);
-    mapper.insert({{pose, params.covariance}, params.belief}, reading, T_map_base, freshness.of_next(reading, pose));
+    mapper.insert({{T_map_base.pose_at(reading.time), params.covariance}, params.belief}, reading, T_map_base);
   });
   return {mapper.masses(), mapper.counts(), without_pose, mapper.abandoned()};
 }

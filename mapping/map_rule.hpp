@@ -27,7 +27,7 @@ struct NamedRule {
 };
 
 /// dempster, dsmc, bayes (read-outs of one map); dempster_fold, dsmc_fold, pcr2, pcr5, dsmh, bayes_betp, adaptive,
-/// fixed.
+/// fixed, changing.
 [[nodiscard]] std::span<const NamedRule> map_rules();
 /// \throws std::invalid_argument for another name
 [[nodiscard]] const NamedRule& map_rule(std::string_view name);

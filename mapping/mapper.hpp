@@ -79,6 +79,16 @@ struct TrajectoryMappingParams {
 /// Whether a trajectory has a pose within `max_gap_s` of a time, on the side or sides that it is interpolated from.
 [[nodiscard]] bool covers(const sensors::MotionPath& trajectory, sensors::Timestamp time, double max_gap_s);
 
+/// How much of each reading of a robot's drive is new (Freshness), in the order that they are given in; 1 of what has
+/// no pose. Readings that are dealt out to several mappers make the same map to the bit, however they are dealt, if
+/// their shares are of the whole drive.
+[[nodiscard]] std::vector<double> new_shares(const sensors::MotionPath& T_map_base,
+                                             std::span<const sensors::RangeScan> scans,
+                                             const TrajectoryMappingParams& params);
+[[nodiscard]] std::vector<double> new_shares(const sensors::MotionPath& T_map_base,
+                                             std::span<const sensors::SonarSweep> sweeps,
+                                             const TrajectoryMappingParams& params);
+
 struct TrajectoryMap {
   grids::EvidentialGrid grid;
   MappingCounts counts;

@@ -43,7 +43,8 @@ void for_each_mass(const grids::Georeference& georeference, const sensors::Sonar
 }
 
 /// The same readings as `Mapper` into cells of any rule, one after the other. Slower: each cell asks the sensor model
-/// itself, so that masses without ignorance stay what they are. An unsure pose discounts and does not blur.
+/// itself, so that masses without ignorance stay what they are. An unsure pose discounts and does not blur. Readings of
+/// a robot at rest count less and less (Freshness), unless the rule forgets; so they are to be given by time.
 template <CellRule Rule>
 class SequentialMapper {
  public:
@@ -55,6 +56,7 @@ class SequentialMapper {
         params_(params),
         reliability_(rig, params.sensors),
         rule_(std::move(rule)),
+        freshness_(params.freshness),
         grid_(params.georeference) {
     for (const sensors::SonarRing& ring : rig.sonar_rings) sonars_.push_back(sonar_model(ring, params.sonar));
     const Li2006Laser laser(params.laser);
@@ -64,12 +66,13 @@ class SequentialMapper {
 
   /// \throws as Mapper::insert
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::SonarSweep& sweep,
-              const sensors::MotionPath& path = {}, double share = 1.0) {
+              const sensors::MotionPath& path = {}) {
     const auto& rings = rig_.sonar_rings;
     const auto ring = static_cast<std::size_t>(sweep.sensor);
     const bool there = sweep.sensor >= 0 && ring < rings.size();
     place_sweep(rig_, params_.georeference, params_.pose, T_map_base, sweep, path, counts_, placed_,
-                there ? std::span<const double>(reliability_.of_ring(ring)) : std::span<const double>{}, share);
+                there ? std::span<const double>(reliability_.of_ring(ring)) : std::span<const double>{},
+                share_of(sweep, T_map_base));
     for (const PlacedReading& reading : placed_)
       for_each_mass(params_.georeference, rig_.sonar_rings[static_cast<std::size_t>(sweep.sensor)],
                     sonars_[static_cast<std::size_t>(sweep.sensor)], reading,
@@ -78,13 +81,13 @@ class SequentialMapper {
 
   /// A scan's evidence is that of `Mapper` on an empty map: each cell takes it in once.
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::RangeScan& scan,
-              const sensors::MotionPath& path = {}, double share = 1.0) {
+              const sensors::MotionPath& path = {}) {
     const auto& finders = rig_.range_finders;
     const bool there = scan.sensor >= 0 && static_cast<std::size_t>(scan.sensor) < finders.size();
     require_sensor(finders.size(), scan.sensor, scan.ranges_m.size(),
                    there ? static_cast<std::size_t>(finders[static_cast<std::size_t>(scan.sensor)].count) : 0,
                    "range finder");
-    const double trust = share * reliability_.of_finder(static_cast<std::size_t>(scan.sensor));
+    const double trust = share_of(scan, T_map_base) * reliability_.of_finder(static_cast<std::size_t>(scan.sensor));
     const PoseReliability reliability(T_map_base, params_.georeference.resolution_m, params_.pose, trust);
     ++counts_.scans;
     if (reliability.maps_nothing()) {
@@ -111,6 +114,11 @@ class SequentialMapper {
   }
 
  private:
+  template <typename Reading>
+  [[nodiscard]] double share_of(const Reading& reading, const evidence::Believed<geometry::PoseEstimate>& T_map_base) {
+    return Rule::kForgets ? 1.0 : freshness_.of_next(reading, T_map_base.value.pose);
+  }
+
   void take_in(grids::CellIndex cell, const evidence::GridMass& mass, sensors::Timestamp time) {
     abandoned_ += rule_.update(grid_.see(cell), mass, time) ? 0 : 1;
   }
@@ -128,6 +136,7 @@ class SequentialMapper {
   MapperParams params_;
   SensorReliability reliability_;
   Rule rule_;
+  Freshness freshness_;
   grids::CellGrid<Cell> grid_;
   std::vector<AnySonarModel> sonars_;  // one for each ring
   std::vector<ScanPainter> scans_;     // one for each range finder

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace credo::mapping {
 namespace {
 
@@ -71,6 +73,62 @@ TEST(ChangingFold, EmptyAgesFasterThanOccupied) {
   EXPECT_NEAR(empty.cell.mass.empty, 0.5, 0.02);
   EXPECT_NEAR(occupied.cell.mass.occupied, 0.89, 0.02);
   EXPECT_FALSE(since_when(empty.cell));
+}
+
+TEST(ChangingFold, AContradictionOfLongAgoSaysNothingTogetherWithOneOfNow) {
+  Watched watched;
+  watched.see(kSaysOccupied, 10);
+  watched.see(kSaysEmpty, 1);
+  watched.now += 24 * 3600 * kSecond;
+  watched.see(kSaysEmpty, 1);
+  EXPECT_FALSE(since_when(watched.cell));  // it may be anything by now
+  EXPECT_EQ(watched.cell.changes, 0);
+  watched.see(kSaysEmpty, 2);
+  EXPECT_EQ(watched.cell.changes, 1);
+  EXPECT_GE(since_when(watched.cell).value_or(0), watched.now - 2 * kSecond);
+}
+
+TEST(ChangingFold, WhatIsSeenAgainAfterHoursIsWhatIsSeen) {
+  for (const bool same : {true, false}) {
+    Watched watched;
+    watched.see(kSaysEmpty, 10);
+    watched.see(kSaysOccupied, 1);
+    watched.now += 4 * 3600 * kSecond;
+    watched.see(same ? kSaysEmpty : kSaysOccupied, 1);
+    EXPECT_EQ(watched.occupied(), !same);
+    EXPECT_GT(std::max(watched.cell.mass.empty, watched.cell.mass.occupied), 0.8);
+    watched.see(same ? kSaysEmpty : kSaysOccupied, 2);
+    EXPECT_EQ(watched.cell.changes, same ? 0 : 1);
+    EXPECT_TRUE(since_when(watched.cell));
+  }
+}
+
+/// A cell at the edge of something is seen both ways for ever.
+TEST(ChangingFold, WhatFlickersIsInNoStateInTheEnd) {
+  Watched watched;
+  watched.see(kSaysEmpty, 10);
+  for (int i = 0; i < 2000; ++i) watched.see(i % 2 == 0 ? kSaysOccupied : kSaysEmpty, 1);
+  const GridMass& mass = watched.cell.mass;
+  EXPECT_NEAR(mass.empty + mass.occupied + mass.unknown, 1.0, 1e-9);
+  EXPECT_LE(watched.cell.changes, 2);
+}
+
+TEST(ChangingFold, TimeMayBeginAtZero) {
+  Watched watched;
+  watched.now = -kSecond;  // the first reading is of time 0
+  watched.see(kSaysEmpty, 1);
+  watched.now += 24 * 3600 * kSecond;
+  EXPECT_TRUE(watched.rule.update(watched.cell, GridMass::vacuous(), watched.now));
+  EXPECT_LT(watched.cell.mass.empty, 0.01);
+}
+
+TEST(ChangingFold, AReadingThatIsConflictAloneIsAbandoned) {
+  Watched watched;
+  watched.see(kSaysEmpty, 10);
+  const GridMass before = watched.cell.mass;
+  EXPECT_FALSE(
+      watched.rule.update(watched.cell, {.empty = 0.0, .occupied = 0.0, .conflict = 1.0, .unknown = 0.0}, watched.now));
+  EXPECT_EQ(watched.cell.mass, before);
 }
 
 TEST(ChangingFold, AnUnseenCellIsInNoState) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "tests/mapping/readings.hpp"
 
 namespace credo::mapping {
@@ -12,7 +14,7 @@ namespace {
 
 using namespace test;  // NOLINT: the helpers of these tests
 
-constexpr FreshnessParams kTenth{.correlation = 0.1, .way_m = 0.02, .turn_rad = 0.02};
+constexpr FreshnessParams kTenth{.correlation = 0.1, .way_m = 0.02, .turn_rad = 0.02, .still_m = 0.0, .still_rad = 0.0};
 
 double next(Freshness& freshness, const Pose2& pose, int sensor = 0) {
   return freshness.of_next(sensors::SonarSweep{0, sensor, {}}, pose);
@@ -47,6 +49,19 @@ TEST(Freshness, ComesBackWithTheWayAndWithTheTurn) {
   EXPECT_NEAR(next(turning, {0.0, 0.0, 1.0}), 1.0, 1e-9);
 }
 
+TEST(Freshness, APoseThatJittersAtRestIsAtRestAndASlowRobotIsNot) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> place(0.0, 0.0015), turn(0.0, 0.0025);
+  Freshness resting, creeping;
+  double at_rest = 0.0, on_its_way = 0.0;
+  for (int k = 0; k < 250; ++k) {
+    at_rest += next(resting, {place(random), place(random), turn(random)});
+    on_its_way += next(creeping, {0.005 * k, 0.0, 0.0});  // 5 cm/s, ten times a second
+  }
+  EXPECT_LT(at_rest, 15.0);
+  EXPECT_GT(on_its_way, 150.0);
+}
+
 TEST(Freshness, OfSensorsIsTheirOwn) {
   Freshness freshness(kTenth);
   static_cast<void>(next(freshness, {}));
@@ -62,8 +77,9 @@ TEST(Freshness, CanBeOff) {
 }
 
 TEST(Freshness, RefusesParametersThatAreNone) {
-  for (const FreshnessParams& params : {FreshnessParams{.correlation = 1.0}, FreshnessParams{.correlation = -0.1},
-                                        FreshnessParams{.way_m = 0.0}, FreshnessParams{.turn_rad = std::nan("")}})
+  for (const FreshnessParams& params :
+       {FreshnessParams{.correlation = 1.0}, FreshnessParams{.correlation = -0.1}, FreshnessParams{.way_m = 0.0},
+        FreshnessParams{.still_m = -1.0}, FreshnessParams{.turn_rad = std::nan("")}})
     EXPECT_THROW(Freshness{params}, std::invalid_argument);
 }
 

@@ -81,15 +81,18 @@ TEST(ManyRobots, MakeOneMapToTheBitInAnyOrderGroupingAndNumberOfThreads) {
   }
 }
 
-/// The readings of all robots of one kind, dealt out to mappers one by one.
+/// The readings of all robots of one kind, dealt out to mappers one by one, each with its share of its robot's drive.
 TEST(ManyRobots, MakeOneMapToTheBitHoweverTheirReadingsAreDealtOut) {
   std::vector<Robot> robots;
   std::vector<std::pair<std::size_t, std::size_t>> readings;  // of which robot, and which
+  std::vector<std::vector<double>> scan_shares, sweep_shares;
   grids::EvidentialGrid expected;
   for (std::size_t number = 0; number < kRobots; ++number) {
     robots.push_back(robot(number));
-    robots.back().params.mapper.freshness.correlation = 0.0;
-    expected.merge(map_of(robots.back()));
+    const Robot& last = robots.back();
+    expected.merge(map_of(last));
+    scan_shares.push_back(new_shares(last.path, last.scans, last.params));
+    sweep_shares.push_back(new_shares(last.path, last.sweeps, last.params));
     for (std::size_t k = 0; k < robots.back().scans.size(); ++k) readings.emplace_back(number, k);
   }
   std::mt19937 generator(21);
@@ -101,8 +104,10 @@ TEST(ManyRobots, MakeOneMapToTheBitHoweverTheirReadingsAreDealtOut) {
     const auto pose_of = [&](sensors::Timestamp time) {
       return Believed<PoseEstimate>{{one.path.pose_at(time), one.params.covariance}, one.params.belief};
     };
-    mappers[generator() % mappers.size()].insert(pose_of(one.scans[k].time), one.scans[k], one.path);
-    mappers[generator() % mappers.size()].insert(pose_of(one.sweeps[k].time), one.sweeps[k], one.path);
+    mappers[generator() % mappers.size()].insert(pose_of(one.scans[k].time), one.scans[k], one.path,
+                                                 scan_shares[number][k]);
+    mappers[generator() % mappers.size()].insert(pose_of(one.sweeps[k].time), one.sweeps[k], one.path,
+                                                 sweep_shares[number][k]);
   }
   std::vector<grids::EvidentialGrid> maps;
   for (Mapper& mapper : mappers) maps.push_back(mapper.take_grid());

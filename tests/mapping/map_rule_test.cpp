@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/mapping/readings.hpp"
 
 namespace credo::mapping {
@@ -82,6 +84,32 @@ TEST(MapRule, AFoldOfDempsterAgreesWithTheSum) {
       alike += std::abs(fold.at({x, y}).occupied - sum.at({x, y}).occupied) < 0.05;
     }
   EXPECT_GT(alike, 0.97 * cells);  // tables round angles and distances
+}
+
+TEST(MapRule, FoldsTakeReadingsInByTimeHoweverTheyAreGiven) {
+  const Drive drive;
+  Drive reversed = drive;
+  std::ranges::reverse(reversed.scans);
+  std::ranges::reverse(reversed.sweeps);
+  for (const MapRule& rule : {MapRule{ChangingFold{}}, MapRule{Pcr2Fold{}}, MapRule{DempsterFold{}}})
+    EXPECT_EQ(reversed.mapped(rule).map.masses, drive.mapped(rule).map.masses);
+}
+
+/// The wall comes a metre nearer while the robot stands: rules that forget see it, whatever was said a hundred times.
+TEST(MapRule, ARobotAtRestFollowsAChangeByRulesThatForget) {
+  const sensors::Rig rig = rig_with(panoramic());
+  const Pose2 here{1.0, 2.0, 0.3};
+  std::vector<sensors::RangeScan> scans;
+  for (int k = 0; k < 108; ++k) {
+    scans.push_back(scan_of_room(rig.range_finders[0], here, k < 100 ? 5.0 : 4.0, 4.0));
+    scans.back().time = k * kStep;
+  }
+  const sensors::MotionPath path(std::vector<sensors::OdometryReading>{{0, here}, {108 * kStep, here}});
+  for (const char* name : {"changing", "dsmh", "pcr2", "pcr5"}) {
+    const grids::MassMap map = map_along(path, rig, scans, {}, {}, map_rule(name).rule).map;
+    const evidence::GridMass wall = map.at(map.georeference.cell_at({4.02, 2.0}));
+    EXPECT_GT(wall.occupied, wall.empty) << name;
+  }
 }
 
 TEST(MapRule, SameReadingsGiveTheSameMap) {
