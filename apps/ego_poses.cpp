@@ -10,11 +10,12 @@
 #include "apps/terminal.hpp"
 #include "datasets/acquisitions.hpp"
 #include "localization/ego_motion.hpp"
+#include "perception/hough_lines.hpp"
 #include "perception/observer.hpp"
 
 namespace credo::apps {
 
-std::vector<datasets::TimedPose> ego_poses(const datasets::Dataset& dataset) {
+std::vector<datasets::TimedPose> ego_poses(const datasets::Dataset& dataset, LineFinder lines) {
   sensors::Rig rig = dataset.header.rig;
   rig.camera.reset();
   if (rig.range_finders.empty() && !rig.odometry)
@@ -30,7 +31,12 @@ std::vector<datasets::TimedPose> ego_poses(const datasets::Dataset& dataset) {
   for (const sensors::Timestamp time : acquisitions.times()) {
     Interruptible::check();
     const sensors::Acquisition acquisition = datasets::gather(dataset, previous, time, std::nullopt);
-    ego_motion.update(observer.observe(acquisition), acquisition.motion);
+    const perception::Scene& scene = observer.observe(acquisition);
+    if (lines == LineFinder::kHough && !rig.range_finders.empty())
+      ego_motion.update(time, perception::hough_lines(scene.points, {rig.range_finders.front().noise, {}}),
+                        acquisition.motion, scene.carry_covariance);
+    else
+      ego_motion.update(scene, acquisition.motion);
     poses.push_back({time, ego_motion.pose().value.pose});
     previous = time;
     progress.update(static_cast<double>(poses.size()) / static_cast<double>(acquisitions.size()));

@@ -39,6 +39,8 @@ bool wants(const MapSource& o, const char* sensor) {
   return std::find(o.sensors.begin(), o.sensors.end(), sensor) != o.sensors.end();
 }
 
+LineFinder line_finder(const MapSource& o) { return o.lines == "hough" ? LineFinder::kHough : LineFinder::kSegments; }
+
 std::vector<datasets::TimedPose> given_poses(const std::string& file) {
   const datasets::Trajectory trajectory = datasets::read_trajectory(file);
   if (!trajectory.has_times)
@@ -58,7 +60,7 @@ std::vector<MapPart> parts_of_dataset(const MapSource& o, std::string& poses) {
   }
   poses = truth ? "ground truth" : ego ? "ego-motion" : o.poses;
   MapPart part{.path = path_of(truth ? dataset.truth
-                               : ego ? ego_poses(dataset)
+                               : ego ? ego_poses(dataset, line_finder(o))
                                      : given_poses(o.poses)),
                .rig = dataset.header.rig,
                .scans = {},
@@ -86,7 +88,7 @@ std::vector<MapPart> parts_of_carmen(const MapSource& o, std::string& poses) {
   for (const std::string& remark : log.remarks) say_warning(remark);
   std::vector<datasets::TimedPose> given;
   if (o.poses == "ego")
-    given = ego_poses(datasets::to_dataset(log, o.source));
+    given = ego_poses(datasets::to_dataset(log, o.source), line_finder(o));
   else if (!o.poses.empty())
     given = given_poses(o.poses);
   if (!wants(o, "range")) std::fill(log.scans.begin(), log.scans.end(), std::vector<sensors::RangeScan>{});
@@ -122,6 +124,8 @@ void fail_without_readings(const MapSource& o) {
 }
 
 MapParts read_map_parts(const MapSource& o) {
+  if (o.lines != "segments" && o.poses != "ego")
+    throw std::runtime_error("--lines says how ego-motion finds walls: it goes with --poses ego");
   MapParts read;
   if (datasets::Dataset::is_dataset(o.source))
     read.parts = parts_of_dataset(o, read.poses);
@@ -166,6 +170,11 @@ void add_map_source_options(CLI::App& command, MapSource& source) {
                   "truth; of a "
                   "log, its own poses)")
       ->check(a_path());
+  command
+      .add_option("--lines", source.lines,
+                  "how ego-motion finds walls in a scan: segments of neighbouring points, or lines by Hough transform")
+      ->check(CLI::IsMember({"segments", "hough"}))
+      ->capture_default_str();
   command.add_option("--sensors", source.sensors, "what to map with: range, sonar or both")
       ->delimiter(',')
       ->check(CLI::IsMember({"range", "sonar"}))
