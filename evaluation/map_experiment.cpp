@@ -4,6 +4,7 @@
 #include "evaluation/map_experiment.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "evaluation/simulated_drive.hpp"
@@ -77,14 +78,21 @@ grids::MassMap decided_by_zhu(const grids::MassMap& map, const mapping::ZhuDecis
   return decided;
 }
 
-std::int64_t decided_differently(const grids::MassMap& a, const grids::MassMap& b) {
+DecidedDifferently decided_differently(const grids::MassMap& a, const grids::MassMap& b) {
   if (a.box != b.box) throw std::invalid_argument("maps of different rectangles cannot be compared cell by cell");
   const auto sign = [](const evidence::GridMass& mass) {
     return (mass.occupied > mass.empty) - (mass.occupied < mass.empty);
   };
-  std::int64_t cells = 0;
-  for (std::size_t i = 0; i < a.masses.size(); ++i) cells += sign(a.masses[i]) != sign(b.masses[i]);
-  return cells;
+  const auto underflown = [](const evidence::GridMass& mass) {
+    return std::max(mass.empty, mass.occupied) < std::numeric_limits<double>::min() && mass.unknown < 1.0;
+  };
+  DecidedDifferently different;
+  for (std::size_t i = 0; i < a.masses.size(); ++i) {
+    if (sign(a.masses[i]) == sign(b.masses[i])) continue;
+    ++different.cells;
+    different.underflown += underflown(a.masses[i]) || underflown(b.masses[i]);
+  }
+  return different;
 }
 
 }  // namespace credo::evaluation
