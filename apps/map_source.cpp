@@ -13,6 +13,7 @@
 #include "datasets/carmen.hpp"
 #include "datasets/dataset.hpp"
 #include "datasets/sonar_weights_file.hpp"
+#include "datasets/time_order.hpp"
 #include "datasets/trajectory.hpp"
 
 namespace credo::apps {
@@ -25,14 +26,6 @@ sensors::MotionPath path_of(const std::vector<datasets::TimedPose>& poses) {
   rows.reserve(poses.size());
   for (const datasets::TimedPose& p : poses) rows.push_back({p.time, p.pose});
   return sensors::MotionPath(std::move(rows));
-}
-
-template <typename Reading>
-std::vector<Reading> joined(const std::vector<std::vector<Reading>>& by_sensor) {
-  std::vector<Reading> all;
-  for (const auto& readings : by_sensor) all.insert(all.end(), readings.begin(), readings.end());
-  std::stable_sort(all.begin(), all.end(), [](const Reading& a, const Reading& b) { return a.time < b.time; });
-  return all;
 }
 
 bool wants(const MapSource& o, const char* sensor) {
@@ -65,8 +58,8 @@ std::vector<MapPart> parts_of_dataset(const MapSource& o, std::string& poses) {
                .rig = dataset.header.rig,
                .scans = {},
                .sweeps = {}};
-  if (wants(o, "range")) part.scans = joined(dataset.scans);
-  if (wants(o, "sonar")) part.sweeps = joined(dataset.sonar);
+  if (wants(o, "range")) part.scans = datasets::in_time_order(dataset.scans);
+  if (wants(o, "sonar")) part.sweeps = datasets::in_time_order(dataset.sonar);
   std::vector<MapPart> parts;
   parts.push_back(std::move(part));
   return parts;
@@ -93,11 +86,14 @@ std::vector<MapPart> parts_of_carmen(const MapSource& o, std::string& poses) {
     given = given_poses(o.poses);
   if (!wants(o, "range")) std::fill(log.scans.begin(), log.scans.end(), std::vector<sensors::RangeScan>{});
   if (!wants(o, "sonar")) std::fill(log.sonar.begin(), log.sonar.end(), std::vector<sensors::SonarSweep>{});
-  std::vector<sensors::SonarSweep> sweeps = joined(log.sonar);
+  std::vector<sensors::SonarSweep> sweeps = datasets::in_time_order(log.sonar);
   std::vector<MapPart> parts;
   if (!o.poses.empty()) {
     poses = o.poses == "ego" ? "ego-motion" : o.poses;
-    parts.push_back({.path = path_of(given), .rig = log.rig, .scans = joined(log.scans), .sweeps = std::move(sweeps)});
+    parts.push_back({.path = path_of(given),
+                     .rig = log.rig,
+                     .scans = datasets::in_time_order(log.scans),
+                     .sweeps = std::move(sweeps)});
     return parts;
   }
   poses = "the poses of the log";

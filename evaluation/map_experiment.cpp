@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "datasets/time_order.hpp"
 #include "evaluation/simulated_drive.hpp"
 
 namespace credo::evaluation {
@@ -15,15 +16,6 @@ namespace {
 template <typename Reading>
 void keep_until(std::vector<Reading>& readings, sensors::Timestamp end) {
   std::erase_if(readings, [&](const Reading& reading) { return reading.time >= end; });
-}
-
-template <typename Reading>
-std::vector<Reading> joined(std::vector<std::vector<Reading>>&& by_sensor) {
-  std::vector<Reading> all;
-  for (std::vector<Reading>& readings : by_sensor)
-    all.insert(all.end(), std::make_move_iterator(readings.begin()), std::make_move_iterator(readings.end()));
-  std::stable_sort(all.begin(), all.end(), [](const Reading& a, const Reading& b) { return a.time < b.time; });
-  return all;
 }
 
 }  // namespace
@@ -35,8 +27,8 @@ MapDrive play_for_mapping(const sim::World& world, std::uint64_t seed) {
   for (const datasets::TimedPose& row : readings.truth) poses.push_back({row.time, row.pose});
   return {.T_map_base = sensors::MotionPath(std::move(poses)),
           .rig = readings.header.rig,
-          .scans = joined(std::move(readings.scans)),
-          .sweeps = joined(std::move(readings.sonar)),
+          .scans = datasets::in_time_order(std::move(readings.scans)),
+          .sweeps = datasets::in_time_order(std::move(readings.sonar)),
           .truth = true_map_of(simulation)};
 }
 
