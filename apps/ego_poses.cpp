@@ -5,13 +5,12 @@
 
 #include "apps/interrupt.hpp"
 #include "apps/terminal.hpp"
-#include "evaluation/ego_trajectory.hpp"
 
 namespace credo::apps {
 
-std::vector<datasets::TimedPose> ego_poses(const datasets::Dataset& dataset) {
+std::vector<datasets::TimedPose> ego_poses(const datasets::Dataset& dataset, evaluation::LineFinder lines) {
   Progress progress("following " + dataset.header.name);
-  return evaluation::ego_trajectory(dataset, [&](double share) {
+  return evaluation::ego_trajectory(dataset, lines, [&](double share) {
     Interruptible::check();
     progress.update(share);
   });

@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 
 #include "apps/map_report.hpp"
 #include "apps/shipped.hpp"
+#include "evaluation/settings_sweep.hpp"
 
 // Zhu, "Map building method based on improved D-S evidence theory for mobile robot": 9 m x 7 m in cells of 5 cm, five
 // sonars.
@@ -31,7 +32,10 @@ std::vector<ZhuSetting> zhu_settings() {
 }
 
 MapMethod method_of(const ZhuSetting& s, Approximation approximation) {
-  return {"", evaluation::as_in_papers(mapping::ZhuParams{.rho = s.rho, .cells_of_arc = s.n}),
+  mapping::TrajectoryMappingParams params;
+  params.mapper.sonar = mapping::ZhuParams{.rho = s.rho, .cells_of_arc = s.n};
+  params.mapper.freshness.correlation = 0.0;  // the paper counts every reading in full
+  return {"", params,
           mapping::ApproximatedDempsterFold{{.e1 = s.e, .e2 = s.e, .e3 = s.e, .approximation = approximation}}};
 }
 
@@ -48,54 +52,11 @@ double wrong_count(const grids::MassMap& map, const datasets::OccupancyMap& trut
   return static_cast<double>(score.cells - score.right);
 }
 
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
-
 constexpr std::array kApproximations{Approximation::kFixed, Approximation::kAdaptive, Approximation::kFaceValue};
 constexpr std::array kApproximationNames{"fixed", "adaptive", "at face value"};
 
-/// Wrong cells by one criterion and one approximation, by setting and seed.
-using Wrong = std::vector<std::vector<double>>;
-/// By approximation.
-using WrongByAll = std::array<Wrong, kApproximations.size()>;
-
-struct BestOnOthers {
-  evaluation::Spread wrong;
-  std::string settings;
-};
-
-/// For each seed the setting that is best over the other seeds, and what it leaves wrong on this one; nothing of a
-/// single seed.
-BestOnOthers best_on_other_seeds(const Wrong& all, const std::vector<ZhuSetting>& settings, std::size_t seeds) {
-  BestOnOthers best;
-  if (seeds < 2) return {{}, "takes two seeds or more"};
-  for (std::size_t seed = 0; seed < seeds; ++seed) {
-    const auto on_others = [&](std::size_t s) {
-      double sum = 0.0;
-      for (std::size_t other = 0; other < seeds; ++other) sum += other == seed ? 0.0 : all[s][other];
-      return sum;
-    };
-    std::size_t chosen = 0;
-    for (std::size_t s = 1; s < settings.size(); ++s)
-      if (on_others(s) < on_others(chosen)) chosen = s;
-    best.wrong.add(all[chosen][seed]);
-    if (best.settings.find(setting_words(settings[chosen])) == std::string::npos)
-      best.settings += (best.settings.empty() ? "" : "; ") + setting_words(settings[chosen]);
-  }
-  return best;
-}
-
-/// Shares by which there are fewer wrong cells than with the fixed approximation; of all settings and seeds.
-std::vector<double> reductions(const WrongByAll& wrong_cells) {
-  std::vector<double> all;
-  for (std::size_t s = 0; s < wrong_cells[0].size(); ++s)
-    for (std::size_t i = 0; i < wrong_cells[0][s].size(); ++i)
-      if (wrong_cells[0][s][i] > 0.0) all.push_back(1.0 - wrong_cells[1][s][i] / wrong_cells[0][s][i]);
-  return all;
-}
+/// Wrong cells by one criterion, by approximation.
+using WrongByAll = std::array<evaluation::SweptErrors, kApproximations.size()>;
 
 MapTable equal_parameters(const WrongByAll& wrong_cells, const std::vector<ZhuSetting>& all, Criterion criterion) {
   MapTable table{
@@ -118,7 +79,8 @@ MapTable equal_parameters(const WrongByAll& wrong_cells, const std::vector<ZhuSe
 const char* const kLostByZhu =
     "The paper says \"more accurate by 20 percent\" and defines neither accuracy nor e, rho and n, the cells of the "
     "arc. "
-    "The accumulators are taken as the sentence has them that names them: k1 counts \"empty\". At face value, k1 "
+    "Every reading counts in full, as in the paper. The accumulators are taken as the sentence has them that names "
+    "them: k1 counts \"empty\". At face value, k1 "
     "counting \"full\", evidence against the history is hardly weakened, and evidence with it by all of e.";
 const char* const kWhyZhu =
     "What explains it: a cell of the arc gets 1/n, and the fixed approximation takes 2 e of that, up to a half, away "
@@ -130,19 +92,16 @@ const char* const kWhyZhu =
     "holds "
     "for every m2 but the one of n = 1, which is total conflict.";
 
-/// Wrong cells by criterion.
 using WrongByCriterion = std::array<WrongByAll, kCriteria.size()>;
 
-/// Maps all seeds by all settings.
-/// \param shown  gets maps of the first seed
-WrongByCriterion count_wrong(const ExperimentParams& params, const std::vector<ZhuSetting>& all,
-                             std::vector<ShownMap>& shown, const Report& report) {
+/// Plays all seeds, and maps each by every setting and approximation. \param shown  of the first seed
+WrongByCriterion sweep_settings(const ExperimentParams& params, const std::vector<ZhuSetting>& all,
+                                std::vector<ShownMap>& shown, const Report& report) {
   const sim::World world = sim::load_world(find_shipped("zhu", kWorlds));
   const int maps = params.seeds * static_cast<int>(all.size() * kApproximations.size());
-  const auto seeds = static_cast<std::size_t>(params.seeds);
+  const std::size_t seeds = static_cast<std::size_t>(params.seeds);
   WrongByCriterion wrong_cells;
-  for (WrongByAll& by_approximation : wrong_cells)
-    for (Wrong& by_setting : by_approximation) by_setting.assign(all.size(), std::vector<double>(seeds));
+  for (WrongByAll& by_approximation : wrong_cells) by_approximation.fill({all.size(), std::vector<double>(seeds)});
   int done = 0;
   for (std::size_t i = 0; i < seeds; ++i) {
     const MapDrive drive = evaluation::play_for_mapping(world, params.seed + i);
@@ -161,32 +120,43 @@ WrongByCriterion count_wrong(const ExperimentParams& params, const std::vector<Z
   return wrong_cells;
 }
 
+MapTable claim_table(const WrongByCriterion& wrong_cells) {
+  MapTable table{"fewer wrong cells than with the fixed approximation, median over all settings and seeds",
+                 {{"median %", 1, 100.0}},
+                 {}};
+  for (const Criterion criterion : kCriteria) {
+    MapRow& row = table.rows.emplace_back(empty_row(kCriterionNames[criterion], "20", 1));
+    const std::vector<double> shares = evaluation::reductions(wrong_cells[criterion][0], wrong_cells[criterion][1]);
+    if (!shares.empty()) row.values[0].add(evaluation::median_of(shares));
+  }
+  return table;
+}
+
+MapTable own_best_table(const WrongByCriterion& wrong_cells, const std::vector<ZhuSetting>& all) {
+  MapTable table{
+      "each at its own best, chosen on the other seeds (none with one seed): wrong cells", {{"wrong", 1}}, {}};
+  for (const Criterion criterion : kCriteria)
+    for (const std::size_t a : {0U, 1U}) {
+      const evaluation::OwnBest best = evaluation::best_on_other_seeds(wrong_cells[criterion][a]);
+      std::string name = fmt::format("{}, {}", kCriterionNames[criterion], kApproximationNames[a]);
+      for (std::size_t i = 0; i < best.settings.size(); ++i)
+        name += (i == 0 ? " (" : "; ") + setting_words(all[best.settings[i]]);
+      table.rows.push_back({best.settings.empty() ? name : name + ")", "", {best.error}});
+    }
+  return table;
+}
+
 }  // namespace
 
 MapReport reproduce_zhu(const ExperimentParams& params, const Report& report) {
   const std::vector<ZhuSetting> all = zhu_settings();
   MapReport result;
-  const WrongByCriterion wrong_cells = count_wrong(params, all, result.maps, report);
-  MapTable claim{"fewer wrong cells than with the fixed approximation, median over all settings and seeds",
-                 {{"median %", 1, 100.0}},
-                 {}};
-  MapTable best{"each at its own best, chosen on the other seeds: wrong cells", {{"wrong", 1}}, {}};
-  result.tables = {claim, best};
-  for (const Criterion criterion : kCriteria) {
-    MapRow& row = result.tables[0].rows.emplace_back(empty_row(kCriterionNames[criterion], "20", 1));
-    if (const auto shares = reductions(wrong_cells[criterion]); !shares.empty()) row.values[0].add(median_of(shares));
-    for (const std::size_t a : {0U, 1U}) {
-      const BestOnOthers own =
-          best_on_other_seeds(wrong_cells[criterion][a], all, static_cast<std::size_t>(params.seeds));
-      result.tables[1].rows.push_back(
-          {fmt::format("{}, {} ({})", kCriterionNames[criterion], kApproximationNames[a], own.settings),
-           "",
-           {own.wrong}});
-    }
-    result.tables.push_back(equal_parameters(wrong_cells[criterion], all, criterion));
-  }
+  const WrongByCriterion wrong_cells = sweep_settings(params, all, result.maps, report);
   result.heading = fmt::format("Zhu: 9 m x 7 m, five sonars in two groups, cells of 5 cm; {} seeds from {}",
                                params.seeds, params.seed);
+  result.tables = {claim_table(wrong_cells), own_best_table(wrong_cells, all)};
+  for (const Criterion criterion : kCriteria)
+    result.tables.push_back(equal_parameters(wrong_cells[criterion], all, criterion));
   result.notes = {kLostByZhu, kWhyZhu};
   return result;
 }

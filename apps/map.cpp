@@ -237,6 +237,22 @@ void execute(MapOptions o) {
   if (!o.pictures.empty()) std::printf("pictures: %s\n", o.pictures.c_str());
 }
 
+/// The sonar model and the rule.
+void add_method_options(CLI::App& command, MapOptions& o) {
+  const auto models = mapping::sonar_model_names();
+  command.add_option("--model", o.sonar.model, "of the sonar")
+      ->check(CLI::IsMember(std::vector<std::string>(models.begin(), models.end())))
+      ->capture_default_str();
+  add_printed_option(command, o.sonar);
+  add_sonar_weights_option(command, o.sonar);
+  std::vector<std::string> rules;
+  for (const mapping::NamedRule& rule : mapping::map_rules()) rules.emplace_back(rule.name);
+  command
+      .add_option("--rule", o.rule,
+                  "how cells take readings in; default: a map that no order changes, Dempster's masses written")
+      ->check(CLI::IsMember(rules));
+}
+
 }  // namespace
 
 void add_map(CLI::App& app) {
@@ -246,22 +262,12 @@ void add_map(CLI::App& app) {
       "  credo map datasets/office --poses results/office/trajectory.tum --out results/office_map\n"
       "  credo map intel.log.gz --out results/intel --resolution 0.1 --pictures results/intel_pictures\n"
       "  credo map intel.log.gz --poses ego --out results/intel_ego                when all drifts\n"
+      "  credo map intel.log.gz --poses ego --lines hough --out results/intel_hough\n"
       "  credo map datasets/room --sensors sonar --model calibrated                another sonar model\n"
       "  credo map datasets/room --sensors sonar --model zhu --rule adaptive       and another rule");
   auto o = std::make_shared<MapOptions>();
   add_map_source_options(*command, o->from);
-  const auto models = mapping::sonar_model_names();
-  command->add_option("--model", o->sonar.model, "of the sonar")
-      ->check(CLI::IsMember(std::vector<std::string>(models.begin(), models.end())))
-      ->capture_default_str();
-  add_printed_option(*command, o->sonar);
-  add_sonar_weights_option(*command, o->sonar);
-  std::vector<std::string> rules;
-  for (const mapping::NamedRule& rule : mapping::map_rules()) rules.emplace_back(rule.name);
-  command
-      ->add_option("--rule", o->rule,
-                   "how cells take readings in; default: a map that no order changes, Dempster's masses written")
-      ->check(CLI::IsMember(rules));
+  add_method_options(*command, *o);
   command->add_option("-o,--out", o->out, "folder for the map; default results/NAME_map")->check(a_path());
   command->add_option("--resolution", o->params.mapper.georeference.resolution_m, "side of a cell [m]")
       ->check(any_resolution())

@@ -13,6 +13,7 @@
 #include "datasets/carmen.hpp"
 #include "datasets/dataset.hpp"
 #include "datasets/sonar_weights_file.hpp"
+#include "datasets/time_order.hpp"
 #include "datasets/trajectory.hpp"
 
 namespace credo::apps {
@@ -27,16 +28,12 @@ sensors::MotionPath path_of(const std::vector<datasets::TimedPose>& poses) {
   return sensors::MotionPath(std::move(rows));
 }
 
-template <typename Reading>
-std::vector<Reading> joined(const std::vector<std::vector<Reading>>& by_sensor) {
-  std::vector<Reading> all;
-  for (const auto& readings : by_sensor) all.insert(all.end(), readings.begin(), readings.end());
-  std::stable_sort(all.begin(), all.end(), [](const Reading& a, const Reading& b) { return a.time < b.time; });
-  return all;
-}
-
 bool wants(const MapSource& o, const char* sensor) {
   return std::find(o.sensors.begin(), o.sensors.end(), sensor) != o.sensors.end();
+}
+
+evaluation::LineFinder line_finder(const MapSource& o) {
+  return o.lines == "hough" ? evaluation::LineFinder::kHough : evaluation::LineFinder::kSegments;
 }
 
 std::vector<datasets::TimedPose> given_poses(const std::string& file) {
@@ -58,13 +55,13 @@ std::vector<MapPart> parts_of_dataset(const MapSource& o, std::string& poses) {
   }
   poses = truth ? "ground truth" : ego ? "ego-motion" : o.poses;
   MapPart part{.path = path_of(truth ? dataset.truth
-                               : ego ? ego_poses(dataset)
+                               : ego ? ego_poses(dataset, line_finder(o))
                                      : given_poses(o.poses)),
                .rig = dataset.header.rig,
                .scans = {},
                .sweeps = {}};
-  if (wants(o, "range")) part.scans = joined(dataset.scans);
-  if (wants(o, "sonar")) part.sweeps = joined(dataset.sonar);
+  if (wants(o, "range")) part.scans = datasets::in_time_order(dataset.scans);
+  if (wants(o, "sonar")) part.sweeps = datasets::in_time_order(dataset.sonar);
   std::vector<MapPart> parts;
   parts.push_back(std::move(part));
   return parts;
@@ -86,16 +83,19 @@ std::vector<MapPart> parts_of_carmen(const MapSource& o, std::string& poses) {
   for (const std::string& remark : log.remarks) say_warning(remark);
   std::vector<datasets::TimedPose> given;
   if (o.poses == "ego")
-    given = ego_poses(datasets::to_dataset(log, o.source));
+    given = ego_poses(datasets::to_dataset(log, o.source), line_finder(o));
   else if (!o.poses.empty())
     given = given_poses(o.poses);
   if (!wants(o, "range")) std::fill(log.scans.begin(), log.scans.end(), std::vector<sensors::RangeScan>{});
   if (!wants(o, "sonar")) std::fill(log.sonar.begin(), log.sonar.end(), std::vector<sensors::SonarSweep>{});
-  std::vector<sensors::SonarSweep> sweeps = joined(log.sonar);
+  std::vector<sensors::SonarSweep> sweeps = datasets::in_time_order(log.sonar);
   std::vector<MapPart> parts;
   if (!o.poses.empty()) {
     poses = o.poses == "ego" ? "ego-motion" : o.poses;
-    parts.push_back({.path = path_of(given), .rig = log.rig, .scans = joined(log.scans), .sweeps = std::move(sweeps)});
+    parts.push_back({.path = path_of(given),
+                     .rig = log.rig,
+                     .scans = datasets::in_time_order(log.scans),
+                     .sweeps = std::move(sweeps)});
     return parts;
   }
   poses = "the poses of the log";
@@ -122,6 +122,8 @@ void fail_without_readings(const MapSource& o) {
 }
 
 MapParts read_map_parts(const MapSource& o) {
+  if (o.lines != "segments" && o.poses != "ego")
+    throw std::runtime_error("--lines says how ego-motion finds walls: it goes with --poses ego");
   MapParts read;
   if (datasets::Dataset::is_dataset(o.source))
     read.parts = parts_of_dataset(o, read.poses);
@@ -166,6 +168,11 @@ void add_map_source_options(CLI::App& command, MapSource& source) {
                   "truth; of a "
                   "log, its own poses)")
       ->check(a_path());
+  command
+      .add_option("--lines", source.lines,
+                  "how ego-motion finds walls in a scan: segments of neighbouring points, or lines by Hough transform")
+      ->check(CLI::IsMember({"segments", "hough"}))
+      ->capture_default_str();
   command.add_option("--sensors", source.sensors, "what to map with: range, sonar or both")
       ->delimiter(',')
       ->check(CLI::IsMember({"range", "sonar"}))

@@ -15,6 +15,7 @@ namespace credo::apps {
 struct MapSource {
   std::string source, poses;
   std::vector<std::string> sensors{"range", "sonar"};
+  std::string lines = "segments";  ///< of --poses ego: or "hough"
 };
 
 /// Readings with the poses to map them from.

@@ -46,30 +46,11 @@ sim::World world_of(const SimulateOptions& options) {
   return sim::random_world(options.seed, params);
 }
 
-datasets::OccupancyMap occupancy_of(const sim::TruthMap& truth) {
-  datasets::OccupancyMap map{.width = truth.width,
-                             .height = truth.height,
-                             .resolution_m = truth.resolution_m,
-                             .origin_x_m = truth.origin.x(),
-                             .origin_y_m = truth.origin.y(),
-                             .cells = {}};
-  map.cells.reserve(truth.cells.size());
-  for (const sim::TruthMap::Cell cell : truth.cells) {
-    map.cells.push_back(cell == sim::TruthMap::Cell::kOccupied ? datasets::OccupancyMap::kOccupied
-                        : cell == sim::TruthMap::Cell::kFree   ? datasets::OccupancyMap::kFree
-                                                               : datasets::OccupancyMap::kUnknown);
-  }
-  return map;
-}
-
 /// What is true at the end; and, where something changed, all that was true before.
 void write_truth(const sim::Simulation& simulation, const fs::path& dataset) {
-  datasets::write_map(occupancy_of(simulation.truth_map()), dataset / "truth_map.yaml");
-  if (simulation.world().changes.empty()) return;
-  std::vector<datasets::TruthState> states;
-  for (const sim::TruthState& state : simulation.truth_states())
-    states.push_back({state.since, occupancy_of(state.map)});
-  datasets::write_truth_states(states, dataset);
+  datasets::write_map(evaluation::true_map_of(simulation), dataset / "truth_map.yaml");
+  if (!simulation.world().changes.empty())
+    datasets::write_truth_states(evaluation::true_states_of(simulation), dataset);
 }
 
 sim::Sink sink_into(datasets::DatasetWriter& writer, Progress& progress) {

@@ -62,16 +62,17 @@ float checked_reading(double value, double range_min, double range_max, SensorLo
 }
 
 /// The rows of a range finder or a sonar ring; both are a time and a list of ranges.
+/// \param range_factor  by which each is multiplied before the limits are looked at
 template <typename Row>
 std::vector<Row> read_ranges(const fs::path& file, int sensor, int count, double range_min, double range_max,
-                             SensorLog& log) {
+                             SensorLog& log, double range_factor = 1.0) {
   std::vector<Row> rows;
   CsvTable table(file, reading_columns(count), "sensor.yaml tells of " + std::to_string(count) + " readings");
   while (table.next_row()) {
     Row row{.time = table.time(), .sensor = sensor, .ranges_m = std::vector<float>(static_cast<std::size_t>(count))};
     bool any = false;
     for (float& range : row.ranges_m) {
-      range = checked_reading(table.number(), range_min, range_max, log);
+      range = checked_reading(range_factor * table.number(), range_min, range_max, log);
       any = any || !std::isnan(range);
     }
     ++(any ? log.rows : log.rows_without_value);
@@ -178,12 +179,12 @@ void read_range_finders(const fs::path& folder, Dataset& dataset) {
 
 void read_sonar_rings(const fs::path& folder, Dataset& dataset) {
   for (const std::string& name : sensor_folders(folder, "sonar")) {
-    const sensors::SonarRing ring = read_sonar_ring(folder / name / "sensor.yaml", dataset.remarks);
+    const auto [ring, range_factor] = read_sonar_ring(folder / name / "sensor.yaml", dataset.remarks);
     SensorLog log{.sensor = name};
     const int index = static_cast<int>(dataset.sonar.size());
     dataset.sonar.push_back(read_ranges<sensors::SonarSweep>(folder / name / "data.csv", index,
                                                              static_cast<int>(ring.T_base_transducer.size()),
-                                                             ring.range_min_m, ring.range_max_m, log));
+                                                             ring.range_min_m, ring.range_max_m, log, range_factor));
     dataset.header.rig.sonar_rings.push_back(ring);
     dataset.sonar_ring_names.push_back(name);
     dataset.log.push_back(log);

@@ -3,6 +3,7 @@
 
 #include "datasets/grid_file.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fstream>
@@ -54,9 +55,9 @@ std::string to_bytes(const Header& header) {
   return bytes;
 }
 
-[[noreturn]] void fail_damaged(const std::filesystem::path& file, const std::string& part) {
-  throw FormatError(file, 0,
-                    part + " is damaged (its checksum does not fit); restore the file from a copy, or map again");
+[[noreturn]] void fail_damaged(const std::filesystem::path& file, const std::string& part,
+                               const char* how = "its checksum does not fit") {
+  throw FormatError(file, 0, part + " is damaged (" + how + "); restore the file from a copy, or map again");
 }
 
 Header read_header(const std::filesystem::path& file, std::string_view bytes) {
@@ -155,38 +156,49 @@ GridFile::GridFile(std::filesystem::path file) : file_(std::move(file)) {
   check_size(file_, header, file_bytes);
   check_georeference(file_, header.georeference);
   georeference_ = header.georeference;
-  bytes.resize(header.tiles * kEntryBytes);
   in.seekg(kHeaderBytes);
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (static_cast<std::size_t>(in.gcount()) != bytes.size() || checksum_of(bytes) != header.index_checksum)
-    fail_damaged(file_, "the index");
-  read_index(bytes, kHeaderBytes + bytes.size(), file_bytes);
+  read_index(in, header.tiles, header.index_checksum, file_bytes);
 }
 
-void GridFile::read_index(const std::string& bytes, std::uint64_t tiles_begin, std::uint64_t file_bytes) {
-  const auto require = [&](bool holds, const char* what) {
-    if (!holds) throw FormatError(file_, 0, std::string("the index is none: ") + what);
-  };
-  std::uint64_t place = tiles_begin;
-  entries_.reserve(bytes.size() / kEntryBytes);
-  for (std::size_t at = 0; at < bytes.size(); at += kEntryBytes) {
-    const auto number = [&](std::size_t field) {
-      return static_cast<std::uint32_t>(get_little_endian(bytes, at + 4 * field, 4));
-    };
-    const Entry entry{.tile = {.y = static_cast<std::int32_t>(number(0)), .x = static_cast<std::int32_t>(number(1))},
-                      .bytes = number(2),
-                      .checksum = number(3),
-                      .place = place};
-    require(std::abs(std::int64_t{entry.tile.x}) <= kLargestTileIndex &&
-                std::abs(std::int64_t{entry.tile.y}) <= kLargestTileIndex,
-            "a tile lies farther off than a map reaches");
-    require(entries_.empty() || entries_.back().tile < entry.tile, "its tiles are not in order, or one comes twice");
-    require(entry.bytes <= kLargestPackedTile, "a tile takes more bytes than a packed tile can");
-    place += entry.bytes;
-    require(place <= file_bytes, "its tiles take more bytes than the file has");
-    entries_.push_back(entry);
+/// In pieces, each checked before the next is read: a file that says it has more tiles than it has gets no memory.
+void GridFile::read_index(std::istream& in, std::uint64_t tiles, std::uint32_t checksum, std::uint64_t file_bytes) {
+  constexpr std::uint64_t kPiece = 4096;  // tiles
+  std::uint64_t place = kHeaderBytes + kEntryBytes * tiles;
+  std::uint32_t found = 0;
+  std::string bytes;
+  for (std::uint64_t left = tiles; left > 0; left -= std::min(left, kPiece)) {
+    bytes.resize(kEntryBytes * std::min(left, kPiece));
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (static_cast<std::size_t>(in.gcount()) != bytes.size()) fail_damaged(file_, "the index", "it cannot be read");
+    found = checksum_of(bytes, found);
+    for (std::size_t at = 0; at < bytes.size(); at += kEntryBytes) {
+      entries_.push_back(entry_of(std::string_view(bytes).substr(at, kEntryBytes), place, file_bytes));
+      place += entries_.back().bytes;
+    }
   }
-  require(place == file_bytes, "the file has bytes that belong to no tile");
+  if (found != checksum) fail_damaged(file_, "the index");
+  if (place != file_bytes) fail_damaged(file_, "the index", "the file has bytes that belong to no tile");
+}
+
+GridFile::Entry GridFile::entry_of(std::string_view bytes, std::uint64_t place, std::uint64_t file_bytes) const {
+  const auto number = [&](std::size_t field) {
+    return static_cast<std::uint32_t>(get_little_endian(bytes, 4 * field, 4));
+  };
+  const auto require = [&](bool holds, const char* what) {
+    if (!holds) fail_damaged(file_, "the index", what);
+  };
+  const Entry entry{.tile = {.y = static_cast<std::int32_t>(number(0)), .x = static_cast<std::int32_t>(number(1))},
+                    .bytes = number(2),
+                    .checksum = number(3),
+                    .place = place};
+  require(std::abs(std::int64_t{entry.tile.x}) <= kLargestTileIndex &&
+              std::abs(std::int64_t{entry.tile.y}) <= kLargestTileIndex,
+          "a tile lies farther off than a map reaches");
+  require(entries_.empty() || entries_.back().tile < entry.tile, "its tiles are not in order, or one comes twice");
+  require(entry.bytes >= kSmallestPackedTile, "a tile takes fewer bytes than a packed tile can");
+  require(entry.bytes <= kLargestPackedTile, "a tile takes more bytes than a packed tile can");
+  require(place + entry.bytes <= file_bytes, "its tiles take more bytes than the file has");
+  return entry;
 }
 
 CellBox GridFile::box() const {

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
+#include <string_view>
 #include <vector>
 
 #include "grids/evidential_grid.hpp"
@@ -44,7 +46,8 @@ class GridFile {
     std::uint64_t place = 0;  ///< in the file
   };
 
-  void read_index(const std::string& bytes, std::uint64_t tiles_begin, std::uint64_t file_bytes);
+  void read_index(std::istream& in, std::uint64_t tiles, std::uint32_t checksum, std::uint64_t file_bytes);
+  [[nodiscard]] Entry entry_of(std::string_view bytes, std::uint64_t place, std::uint64_t file_bytes) const;
   template <typename Wanted>
   [[nodiscard]] grids::EvidentialGrid read_if(Wanted wanted, std::size_t most_tiles) const;
 

@@ -79,9 +79,9 @@ bool unpack(std::string_view packed, Tile& tile) {
   return highest == 0;
 }
 
-std::uint32_t checksum_of(std::string_view bytes) {
+std::uint32_t checksum_of(std::string_view bytes, std::uint32_t before) {
   const auto* const data = reinterpret_cast<const Bytef*>(bytes.data());
-  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), data, bytes.size()));
+  return static_cast<std::uint32_t>(crc32_z(before, data, bytes.size()));
 }
 
 }  // namespace credo::datasets

@@ -8,6 +8,7 @@
 
 #include "datasets/checked_yaml.hpp"
 #include "datasets/image_file.hpp"
+#include "sensors/sound.hpp"
 
 namespace credo::datasets {
 namespace {
@@ -144,6 +145,21 @@ void check_sensor_type(const CheckedMap& keys, std::string_view type) {
   (void)keys.required("sensor_type").one_of({type});
 }
 
+/// What a true range is, of one that was computed from its time of flight with the nominal speed of sound.
+double range_factor(const CheckedMap& keys) {
+  constexpr double kNominalCelsius = 20.0;
+  const auto celsius = keys.optional("air_temperature"), assumed = keys.optional("sound_speed");
+  if (!celsius) {
+    if (assumed) assumed->fail("sound_speed: has no effect without air_temperature, in degrees Celsius");
+    return 1.0;
+  }
+  const double nominal_mps =
+      assumed ? assumed->number({.low = 100.0, .high = 1000.0}) : sensors::sound_speed(kNominalCelsius);
+  const double time_per_metre_s = 2.0 / nominal_mps;
+  return sensors::distance_of_flight(sensors::sound_speed(celsius->number({.low = -90.0, .high = 100.0})),
+                                     time_per_metre_s);
+}
+
 }  // namespace
 
 sensors::OmniCamera read_camera(const std::filesystem::path& file, Remarks& remarks) {
@@ -223,12 +239,13 @@ sensors::RangeFinder counter_clockwise(const sensors::RangeFinder& range_finder)
   return turned;
 }
 
-sensors::SonarRing read_sonar_ring(const std::filesystem::path& file, Remarks& remarks) {
-  const CheckedMap keys =
-      load_yaml(file).map({"sensor_type", "pose", "rate_hz", "height", "accuracy", "exposure", "scan_time",
-                           "firing_times", "transducers", "beam_width", "range_min", "range_max", "sigma"});
+RecordedSonarRing read_sonar_ring(const std::filesystem::path& file, Remarks& remarks) {
+  const CheckedMap keys = load_yaml(file).map({"sensor_type", "pose", "rate_hz", "height", "accuracy", "exposure",
+                                               "scan_time", "firing_times", "transducers", "beam_width", "range_min",
+                                               "range_max", "sigma", "air_temperature", "sound_speed"});
   check_sensor_type(keys, "sonar_ring");
-  sensors::SonarRing ring;
+  RecordedSonarRing recorded{.ring = {}, .range_factor = range_factor(keys)};
+  sensors::SonarRing& ring = recorded.ring;
   const CommonKeys common = common_of(keys, ring.height_m, "firing_times", file, remarks);
   ring.height_m = common.height_m;
   if (common.T_base_sensor != geometry::Pose2{})
@@ -253,7 +270,9 @@ sensors::SonarRing read_sonar_ring(const std::filesystem::path& file, Remarks& r
     ring.sigma_m = sigma->number({.low = 0.0, .high = 1e3, .low_open = true});
   else
     remarks.push_back(file.string() + ": says no sigma; taken as " + std::to_string(ring.sigma_m) + " m");
-  return ring;
+  ring.range_min_m *= recorded.range_factor;
+  ring.range_max_m *= recorded.range_factor;
+  return recorded;
 }
 
 sensors::OdometryNoise read_odometry_noise(const std::filesystem::path& file, Remarks& remarks) {

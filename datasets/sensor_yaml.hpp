@@ -22,7 +22,13 @@ using Remarks = std::vector<std::string>;
 [[nodiscard]] sensors::OmniCamera read_camera(const std::filesystem::path& file, Remarks& remarks);
 /// As the file says; `angle_increment` may be negative (see counter_clockwise()).
 [[nodiscard]] sensors::RangeFinder read_range_finder(const std::filesystem::path& file, Remarks& remarks);
-[[nodiscard]] sensors::SonarRing read_sonar_ring(const std::filesystem::path& file, Remarks& remarks);
+/// A sonar ring, and by what its recorded ranges are to be multiplied, as the air had another temperature than the one
+/// that they were computed for; the limits of the ring are multiplied already.
+struct RecordedSonarRing {
+  sensors::SonarRing ring;
+  double range_factor = 1.0;
+};
+[[nodiscard]] RecordedSonarRing read_sonar_ring(const std::filesystem::path& file, Remarks& remarks);
 [[nodiscard]] sensors::OdometryNoise read_odometry_noise(const std::filesystem::path& file, Remarks& remarks);
 
 /// The same scanner with its beams counted counter-clockwise: the last beam becomes the first, and the scan runs

@@ -3,13 +3,51 @@
 
 #include "datasets/text_file.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <stdexcept>
+#include <string>
 
 #include "datasets/format_error.hpp"
 
 namespace credo::datasets {
+namespace {
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& file) {
+  throw std::runtime_error(file.string() +
+                           ": cannot be written; check that its folder exists, may be written to and has space left");
+}
+
+/// An empty file beside it, `file`.0.partial or with the next number that is free: of this writer alone.
+std::filesystem::path make_file_beside(const std::filesystem::path& file) {
+  constexpr int kMostWriters = 1000;
+  for (int i = 0; i < kMostWriters; ++i) {
+    std::filesystem::path name = file;
+    name += "." + std::to_string(i) + ".partial";
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      ::close(descriptor);
+      return name;
+    }
+    if (errno != EEXIST) break;
+  }
+  fail_to_write(file);
+}
+
+/// Has the kernel bring a file to the disk: else a crash after the rename may leave the new name and no content.
+bool is_on_disk(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool done = ::fsync(descriptor) == 0;
+  ::close(descriptor);
+  return done;
+}
+
+}  // namespace
 
 std::ifstream open_binary_file(const std::filesystem::path& file) {
   std::error_code error;
@@ -44,18 +82,19 @@ std::string read_text_file(const std::filesystem::path& file) {
 }
 
 void write_file_whole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
-  std::filesystem::path temporary = file;
-  temporary += ".partial";
-  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-  if (out) write(out);
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(temporary, file, error);
-  if (!out || error) {
+  const std::filesystem::path temporary = make_file_beside(file);
+  try {
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    if (out) write(out);
+    out.close();
+    if (!out || !is_on_disk(temporary)) fail_to_write(file);
+    std::error_code error;
+    std::filesystem::rename(temporary, file, error);
+    if (error) fail_to_write(file);
+  } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error(
-        file.string() + ": cannot be written; check that its folder exists, may be written to and " + "has space left");
+    throw;
   }
 }
 

@@ -20,7 +20,8 @@ namespace credo::datasets {
 /// \throws FormatError if it is missing, a folder, or not readable
 [[nodiscard]] std::ifstream open_binary_file(const std::filesystem::path& file);
 
-/// Writes a file whole: into a temporary one beside it that takes its name at the end.
+/// Writes a file whole: into a temporary one beside it, of a name that no other writer has, that is brought to the disk
+/// and takes its name at the end. Of several that write the same file at once one stays, whole.
 /// \throws std::runtime_error if that fails; `file` is then as it was
 void write_file_whole(const std::filesystem::path& file, std::string_view content);
 /// The same for what is not held as a whole: `write` puts it out, and may seek.

@@ -4,11 +4,10 @@
 #include "datasets/truth_states.hpp"
 
 #include <cstdio>
-#include <fstream>
-#include <stdexcept>
 #include <string>
 
 #include "datasets/csv_table.hpp"
+#include "datasets/text_file.hpp"
 
 namespace credo::datasets {
 namespace {
@@ -42,15 +41,14 @@ std::vector<TruthState> read_truth_states(const fs::path& dataset) {
 void write_truth_states(const std::vector<TruthState>& states, const fs::path& dataset) {
   const fs::path folder = dataset / "truth_maps";
   fs::create_directories(folder);
-  std::ofstream table(folder / "data.csv");
-  table << "#timestamp [ns],filename\n";
+  std::string table = "#timestamp [ns],filename\n";
   for (std::size_t i = 0; i < states.size(); ++i) {
     char name[32];
     std::snprintf(name, sizeof name, "%04zu.yaml", i);
     write_map(states[i].map, folder / name);
-    table << states[i].since << ',' << name << '\n';
+    table += std::to_string(states[i].since) + ',' + name + '\n';
   }
-  if (!table.flush()) throw std::runtime_error((folder / "data.csv").string() + ": cannot write this file");
+  write_file_whole(folder / "data.csv", table);
 }
 
 }  // namespace credo::datasets

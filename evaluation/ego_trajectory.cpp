@@ -8,11 +8,12 @@
 
 #include "datasets/acquisitions.hpp"
 #include "localization/ego_motion.hpp"
+#include "perception/hough_lines.hpp"
 #include "perception/observer.hpp"
 
 namespace credo::evaluation {
 
-std::vector<datasets::TimedPose> ego_trajectory(const datasets::Dataset& dataset,
+std::vector<datasets::TimedPose> ego_trajectory(const datasets::Dataset& dataset, LineFinder lines,
                                                 const std::function<void(double share)>& progress) {
   sensors::Rig rig = dataset.header.rig;
   rig.camera.reset();
@@ -27,7 +28,12 @@ std::vector<datasets::TimedPose> ego_trajectory(const datasets::Dataset& dataset
   std::optional<sensors::Timestamp> previous;
   for (const sensors::Timestamp time : acquisitions.times()) {
     const sensors::Acquisition acquisition = datasets::gather(dataset, previous, time, std::nullopt);
-    ego_motion.update(observer.observe(acquisition), acquisition.motion);
+    const perception::Scene& scene = observer.observe(acquisition);
+    if (lines == LineFinder::kHough && !rig.range_finders.empty())
+      ego_motion.update(time, perception::hough_lines(scene.points, {rig.range_finders.front().noise, {}}),
+                        acquisition.motion, scene.carry_covariance);
+    else
+      ego_motion.update(scene, acquisition.motion);
     poses.push_back({time, ego_motion.pose().value.pose});
     previous = time;
     if (progress) progress(static_cast<double>(poses.size()) / static_cast<double>(acquisitions.size()));

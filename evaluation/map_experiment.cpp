@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "datasets/time_order.hpp"
 #include "evaluation/ego_trajectory.hpp"
 #include "evaluation/simulated_drive.hpp"
 
@@ -16,15 +17,6 @@ namespace {
 template <typename Reading>
 void keep_until(std::vector<Reading>& readings, sensors::Timestamp end) {
   std::erase_if(readings, [&](const Reading& reading) { return reading.time >= end; });
-}
-
-template <typename Reading>
-std::vector<Reading> joined(std::vector<std::vector<Reading>>&& by_sensor) {
-  std::vector<Reading> all;
-  for (std::vector<Reading>& readings : by_sensor)
-    all.insert(all.end(), std::make_move_iterator(readings.begin()), std::make_move_iterator(readings.end()));
-  std::stable_sort(all.begin(), all.end(), [](const Reading& a, const Reading& b) { return a.time < b.time; });
-  return all;
 }
 
 sensors::MotionPath path_of(std::span<const datasets::TimedPose> poses) {
@@ -37,8 +29,8 @@ sensors::MotionPath path_of(std::span<const datasets::TimedPose> poses) {
 MapDrive drive_along(sensors::MotionPath T_map_base, datasets::Dataset&& readings, datasets::OccupancyMap truth) {
   return {.T_map_base = std::move(T_map_base),
           .rig = readings.header.rig,
-          .scans = joined(std::move(readings.scans)),
-          .sweeps = joined(std::move(readings.sonar)),
+          .scans = datasets::in_time_order(std::move(readings.scans)),
+          .sweeps = datasets::in_time_order(std::move(readings.sonar)),
           .truth = std::move(truth)};
 }
 
@@ -110,14 +102,21 @@ grids::MassMap decided_by_zhu(const grids::MassMap& map, const mapping::ZhuDecis
   return decided;
 }
 
-std::int64_t decided_differently(const grids::MassMap& a, const grids::MassMap& b) {
+DecidedDifferently decided_differently(const grids::MassMap& a, const grids::MassMap& b) {
   if (a.box != b.box) throw std::invalid_argument("maps of different rectangles cannot be compared cell by cell");
   const auto sign = [](const evidence::GridMass& mass) {
     return (mass.occupied > mass.empty) - (mass.occupied < mass.empty);
   };
-  std::int64_t cells = 0;
-  for (std::size_t i = 0; i < a.masses.size(); ++i) cells += sign(a.masses[i]) != sign(b.masses[i]);
-  return cells;
+  const auto underflown = [](const evidence::GridMass& mass) {
+    return std::max(mass.empty, mass.occupied) < std::numeric_limits<double>::min() && mass.unknown < 1.0;
+  };
+  DecidedDifferently different;
+  for (std::size_t i = 0; i < a.masses.size(); ++i) {
+    if (sign(a.masses[i]) == sign(b.masses[i])) continue;
+    ++different.cells;
+    different.underflown += underflown(a.masses[i]) || underflown(b.masses[i]);
+  }
+  return different;
 }
 
 }  // namespace credo::evaluation

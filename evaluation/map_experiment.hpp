@@ -57,7 +57,13 @@ struct MapMethod {
 /// Zhu, eq. (10): occupied, empty, or undecided.
 [[nodiscard]] grids::MassMap decided_by_zhu(const grids::MassMap& map, const mapping::ZhuDecisionParams& params = {});
 
+struct DecidedDifferently {
+  std::int64_t cells = 0;
+  std::int64_t underflown = 0;  ///< of them, where a map's m(empty) and m(occupied) are both below what a double holds
+                                ///< in full: a product of many readings that was never normalised
+};
+
 /// Cells that two maps of one place decide differently. \throws std::invalid_argument if their boxes differ
-[[nodiscard]] std::int64_t decided_differently(const grids::MassMap& a, const grids::MassMap& b);
+[[nodiscard]] DecidedDifferently decided_differently(const grids::MassMap& a, const grids::MassMap& b);
 
 }  // namespace credo::evaluation

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "geometry/pose.hpp"
 
@@ -63,6 +64,16 @@ struct Mean {
   }
 };
 
+/// \throws std::length_error beyond TrueCells::kMostCells
+std::size_t count_of(const CellBox& box, double resolution_m) {
+  const auto count = static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height);
+  if (count <= TrueCells::kMostCells) return count;
+  throw std::length_error("the true map is compared over " + std::to_string(std::lround(resolution_m * box.width)) +
+                          " m x " + std::to_string(std::lround(resolution_m * box.height)) + " m, " +
+                          std::to_string(count) + " cells; expected at most " + std::to_string(TrueCells::kMostCells) +
+                          ": is the resolution in its .yaml file right, in metres per pixel?");
+}
+
 bool counts(const TrueCells& truth, CellIndex cell) {
   switch (truth.at(cell)) {
     case State::kEmpty: return true;
@@ -90,7 +101,7 @@ CellBox box_of(const datasets::OccupancyMap& truth, const grids::Georeference& g
 }
 
 TrueCells::TrueCells(const datasets::OccupancyMap& truth, const grids::Georeference& georeference, const CellBox& box)
-    : box_(box), states_(static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height), State::kUnknown) {
+    : box_(box), states_(count_of(box, georeference.resolution_m), State::kUnknown) {
   const geometry::Pose2 T_map_truth{truth.origin_x_m, truth.origin_y_m, truth.origin_yaw_rad};
   const geometry::Pose2 T_truth_map = T_map_truth.inverse();
   for_each(box, [&](CellIndex cell) {

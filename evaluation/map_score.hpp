@@ -21,6 +21,7 @@ inline constexpr int kWallTolerance = 1;
 class TrueCells {
  public:
   enum class State : std::uint8_t { kUnknown, kEmpty, kOccupied };
+  static constexpr std::size_t kMostCells = std::size_t{1} << 26;  ///< a square of 400 m with cells of 5 cm
 
   /// \param truth  of any resolution and origin, turned or not. A cell is what its centre is in truth, and a wall where
   ///               a true wall cell's centre lies in it.

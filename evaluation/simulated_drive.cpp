@@ -18,6 +18,23 @@ std::vector<std::string> numbered(const char* kind, std::size_t count) {
   return names;
 }
 
+datasets::OccupancyMap occupancy_of(const sim::TruthMap& truth) {
+  using Cell = sim::TruthMap::Cell;
+  using datasets::OccupancyMap;
+  OccupancyMap map{.width = truth.width,
+                   .height = truth.height,
+                   .resolution_m = truth.resolution_m,
+                   .origin_x_m = truth.origin.x(),
+                   .origin_y_m = truth.origin.y(),
+                   .cells = {}};
+  map.cells.reserve(truth.cells.size());
+  for (const Cell cell : truth.cells)
+    map.cells.push_back(cell == Cell::kOccupied ? OccupancyMap::kOccupied
+                        : cell == Cell::kFree   ? OccupancyMap::kFree
+                                                : OccupancyMap::kUnknown);
+  return map;
+}
+
 }  // namespace
 
 datasets::DatasetHeader header_of(const sim::Simulation& simulation) {
@@ -58,22 +75,13 @@ datasets::Dataset readings_of(const sim::Simulation& simulation) {
   return drive;
 }
 
-datasets::OccupancyMap true_map_of(const sim::Simulation& simulation) {
-  using Cell = sim::TruthMap::Cell;
-  using datasets::OccupancyMap;
-  const sim::TruthMap truth = simulation.truth_map();
-  OccupancyMap map{.width = truth.width,
-                   .height = truth.height,
-                   .resolution_m = truth.resolution_m,
-                   .origin_x_m = truth.origin.x(),
-                   .origin_y_m = truth.origin.y(),
-                   .cells = {}};
-  map.cells.reserve(truth.cells.size());
-  for (const Cell cell : truth.cells)
-    map.cells.push_back(cell == Cell::kOccupied ? OccupancyMap::kOccupied
-                        : cell == Cell::kFree   ? OccupancyMap::kFree
-                                                : OccupancyMap::kUnknown);
-  return map;
+datasets::OccupancyMap true_map_of(const sim::Simulation& simulation) { return occupancy_of(simulation.truth_map()); }
+
+std::vector<datasets::TruthState> true_states_of(const sim::Simulation& simulation) {
+  std::vector<datasets::TruthState> states;
+  for (const sim::TruthState& state : simulation.truth_states())
+    states.push_back({state.since, occupancy_of(state.map)});
+  return states;
 }
 
 void for_each_acquisition(const sim::Simulation& simulation, const datasets::Dataset& readings,

@@ -7,6 +7,7 @@
 
 #include "datasets/dataset.hpp"
 #include "datasets/map_server.hpp"
+#include "datasets/truth_states.hpp"
 #include "sensors/acquisition.hpp"
 #include "sim/simulation.hpp"
 
@@ -22,6 +23,8 @@ namespace credo::evaluation {
 
 /// Where the walls of a simulated building are.
 [[nodiscard]] datasets::OccupancyMap true_map_of(const sim::Simulation& simulation);
+/// The same from each change of the world on, by time.
+[[nodiscard]] std::vector<datasets::TruthState> true_states_of(const sim::Simulation& simulation);
 
 struct PlayParams {
   int threads = 1;                            ///< for rendering images

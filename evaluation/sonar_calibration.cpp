@@ -8,12 +8,10 @@
 #include <stdexcept>
 
 #include "evaluation/map_score.hpp"
-#include "evaluation/simulated_drive.hpp"
 #include "evidence/parameter_check.hpp"
 #include "mapping/fan.hpp"
 #include "mapping/sonar_calibrated.hpp"
 #include "sim/presets.hpp"
-#include "sim/random_world.hpp"
 
 namespace credo::evaluation {
 namespace {
@@ -151,17 +149,17 @@ std::vector<double> SonarCalibration::fit() const {
   return {weights.begin(), weights.end()};
 }
 
-void add_simulated_drive(SonarCalibration& calibration, std::uint64_t seed) {
-  sim::World world = sim::random_world(seed);
+MapDrive sonar_drive(std::uint64_t seed, const sim::RandomWorldParams& params) {
+  sim::World world = sim::random_world(seed, params);
   world.camera.reset();
   world.range_finders.clear();
   world.sonars = {sim::sonar_preset("pioneer-16")};
-  const sim::Simulation simulation(std::move(world), seed);
-  const datasets::Dataset drive = readings_of(simulation);
-  std::vector<sensors::OdometryReading> rows;
-  for (const datasets::TimedPose& row : drive.truth) rows.push_back({row.time, row.pose});
-  calibration.add(sensors::MotionPath(std::move(rows)), drive.header.rig.sonar_rings.front(), drive.sonar.front(),
-                  true_map_of(simulation));
+  return play_for_mapping(world, seed);
+}
+
+void add_simulated_drive(SonarCalibration& calibration, std::uint64_t seed, const sim::RandomWorldParams& params) {
+  const MapDrive drive = sonar_drive(seed, params);
+  calibration.add(drive.T_map_base, drive.rig.sonar_rings.front(), drive.sweeps, drive.truth);
 }
 
 }  // namespace credo::evaluation

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "datasets/map_server.hpp"
+#include "evaluation/map_experiment.hpp"
 #include "mapping/mapper.hpp"
+#include "sim/random_world.hpp"
 
 namespace credo::evaluation {
 
@@ -27,6 +29,7 @@ class SonarCalibration {
 
   /// Cells on walls that could be seen are learned as occupied, those farther than one cell from any as empty.
   /// \param T_map_base  the poses of the drive. \param ring  of the rig, whose sweeps these are
+  /// \throws std::length_error if the truth has more than TrueCells::kMostCells
   void add(const sensors::MotionPath& T_map_base, const sensors::SonarRing& ring,
            std::span<const sensors::SonarSweep> sweeps, const datasets::OccupancyMap& truth);
 
@@ -53,7 +56,8 @@ class SonarCalibration {
   std::vector<Entry> entries_;
 };
 
-/// Adds a drive of a 16-sonar ring (pioneer-16) through a building that is drawn from a random seed.
-void add_simulated_drive(SonarCalibration& calibration, std::uint64_t seed);
+/// A drive of a 16-sonar ring (pioneer-16), alone, through a building that is drawn from a random seed.
+[[nodiscard]] MapDrive sonar_drive(std::uint64_t seed, const sim::RandomWorldParams& params = {});
+void add_simulated_drive(SonarCalibration& calibration, std::uint64_t seed, const sim::RandomWorldParams& params = {});
 
 }  // namespace credo::evaluation

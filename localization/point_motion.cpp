@@ -37,15 +37,15 @@ Centres centres_of(std::span<const PointPair> pairs) {
                               std::to_string(pairs.size()) + " pairs" + found);
 }
 
-/// Points nearer to their centre than rounding can tell are one; before or now.
+/// Points nearer to their centre than rounding can tell are one: before the motion, or after it.
 bool at_one_place(std::span<const PointPair> pairs, const Centres& centre) {
-  double spread_before = 0.0, spread_now = 0.0, scale = 0.0;
+  double before = 0.0, now = 0.0, scale = 0.0;
   for (const PointPair& pair : pairs) {
-    spread_before = std::max(spread_before, (pair.before - centre.before).norm());
-    spread_now = std::max(spread_now, (pair.now - centre.now).norm());
+    before = std::max(before, (pair.before - centre.before).norm());
+    now = std::max(now, (pair.now - centre.now).norm());
     scale = std::max({scale, pair.before.norm(), pair.now.norm()});
   }
-  return std::min(spread_before, spread_now) <= 1e-12 * scale;
+  return std::min(before, now) <= 1e-12 * scale;
 }
 
 }  // namespace
@@ -70,17 +70,22 @@ PointMotion point_motion(std::span<const PointPair> pairs) {
 geometry::PoseEstimate point_motion_estimate(std::span<const PointPair> pairs) {
   const geometry::Pose2 T = point_motion(pairs).T_before_now();
   const Eigen::Matrix2d R = T.rotation();
-  // Of the residual before - T now by T: H^-1 (sum J^T C J) H^-1 with H = sum J^T J.
-  Matrix3d H = Matrix3d::Zero(), spread = Matrix3d::Zero();
+  const Vector2d centre = R * centres_of(pairs).now;
+  // Of the residual before - T now by T, turned about the centre: H^-1 (sum J^T C J) H^-1 with H = sum J^T J, diagonal.
+  Eigen::Vector3d H = Eigen::Vector3d::Zero();
+  Matrix3d spread = Matrix3d::Zero();
   for (const PointPair& pair : pairs) {
-    const Vector2d turned = R * pair.now;
+    const Vector2d turned = R * pair.now - centre;
     Eigen::Matrix<double, 2, 3> J;
     J << 1.0, 0.0, -turned.y(), 0.0, 1.0, turned.x();
-    H += J.transpose() * J;
+    H += J.colwise().squaredNorm().transpose();
     spread += J.transpose() * (pair.before_covariance + R * pair.now_covariance * R.transpose()) * J;
   }
-  const Matrix3d inverse = H.inverse();
-  return {T, inverse * spread * inverse};
+  // A turn about the centre shifts the origin.
+  Matrix3d about_origin = Matrix3d::Identity();
+  about_origin.topRightCorner<2, 1>() << centre.y(), -centre.x();
+  const Matrix3d to_pose = about_origin * H.cwiseInverse().asDiagonal();
+  return {T, to_pose * spread * to_pose.transpose()};
 }
 
 }  // namespace credo::localization

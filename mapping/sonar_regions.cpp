@@ -70,12 +70,4 @@ GridMass ZhuSonar::mass(double rho_m, double theta_rad, double reading_m) const 
 
 double ZhuSonar::reach(double reading_m) const { return reading_m + params_.epsilon_m; }
 
-double sound_speed(double celsius) {
-  constexpr double kAbsoluteZero = -273.15;
-  ParameterCheck("speed of sound: ")
-      .require(std::isfinite(celsius) && celsius > kAbsoluteZero, "temperature", celsius,
-               "a finite number above -273.15 degrees");
-  return 331.3 * std::sqrt(1.0 - celsius / kAbsoluteZero);
-}
-
 }  // namespace credo::mapping

@@ -81,12 +81,4 @@ class ZhuSonar {
 };
 static_assert(SonarModel<ZhuSonar>);
 
-/// Distance from a time of flight, there and back (Zhu, eq. (1)).
-[[nodiscard]] constexpr double distance_of_flight(double sound_speed_mps, double time_s) {
-  return 0.5 * sound_speed_mps * time_s;
-}
-/// Speed of sound in dry air at a temperature: 331.3 m/s sqrt(1 + T / 273.15).
-/// \throws std::invalid_argument below absolute zero
-[[nodiscard]] double sound_speed(double celsius);
-
 }  // namespace credo::mapping

@@ -133,30 +133,26 @@ YAML::Node load_file(const std::filesystem::path& file) {
   }
 }
 
-void read_world(const std::filesystem::path& file, World& world, Pending& pending, std::set<std::string>& seen) {
-  if (!seen.insert(std::filesystem::weakly_canonical(file).string()).second)
-    throw std::runtime_error(file.string() + ":1: a world cannot extend itself");
-  YamlMap top(load_file(file), file.string(), "the world");
-  if (top.text("format", "") != "credo-world/1") top.fail("format", "'format' must be credo-world/1");
-  const bool extends = top.has("extends");
-  if (extends) read_world(file.parent_path() / top.text("extends", ""), world, pending, seen);
-  world.name = top.text("name", file.stem().string());
-  world.description = top.text("description", world.description);
-  if (!extends || top.has("building")) {
-    world.panels.clear();
-    world.only_planned.clear();
-    world.marks.clear();
-    world.areas.clear();
-    world.leaves.clear();
-    read_building(top.map("building"), world);
-  }
-  world.plan_uncertainty_m = not_negative(top, "plan_uncertainty", world.plan_uncertainty_m);
-  world.clutter_share = share(top, "clutter", world.clutter_share);
-  world.people = top.integer_within("people", world.people, 0, 100);
-  world.robot_radius_m = positive(top, "robot_radius", world.robot_radius_m);
-  if (top.has("drive")) world.drive = read_drive(top.map("drive"));
-  if (!extends || top.has("path")) read_path(top, world, file.string(), pending);
-  if (top.has("changes")) pending.changes = top.maps("changes");
+void replace_building(YamlMap& top, World& world) {
+  world.panels.clear();
+  world.only_planned.clear();
+  world.marks.clear();
+  world.areas.clear();
+  world.leaves.clear();
+  read_building(top.map("building"), world);
+}
+
+void replace_sensors(YamlMap& top, World& world) {
+  world.camera.reset();
+  world.range_finders.clear();
+  world.sonars.clear();
+  world.odometry.reset();
+  read_sensors(top.map("sensors"), world);
+  if (!world.camera && world.range_finders.empty() && world.sonars.empty())
+    top.fail("sensors", "the robot needs a camera, a range finder or a sonar ring");
+}
+
+void read_initial_pose(YamlMap& top, World& world) {
   world.initial_pose_known = top.flag("initial_pose_known", world.initial_pose_known);
   if (top.has("initial_pose_sigma")) {
     const std::vector<double> sigma = top.numbers("initial_pose_sigma", 3);
@@ -168,15 +164,27 @@ void read_world(const std::filesystem::path& file, World& world, Pending& pendin
     const std::vector<double> offset = top.numbers("initial_pose_offset", 3);
     world.initial_pose_offset = {offset[0], offset[1], offset[2]};
   }
-  if (!extends || top.has("sensors")) {
-    world.camera.reset();
-    world.range_finders.clear();
-    world.sonars.clear();
-    world.odometry.reset();
-    read_sensors(top.map("sensors"), world);
-    if (!world.camera && world.range_finders.empty() && world.sonars.empty())
-      top.fail("sensors", "the robot needs a camera, a range finder or a sonar ring");
-  }
+}
+
+void read_world(const std::filesystem::path& file, World& world, Pending& pending, std::set<std::string>& seen) {
+  if (!seen.insert(std::filesystem::weakly_canonical(file).string()).second)
+    throw std::runtime_error(file.string() + ":1: a world cannot extend itself");
+  YamlMap top(load_file(file), file.string(), "the world");
+  if (top.text("format", "") != "credo-world/1") top.fail("format", "'format' must be credo-world/1");
+  const bool extends = top.has("extends");
+  if (extends) read_world(file.parent_path() / top.text("extends", ""), world, pending, seen);
+  world.name = top.text("name", file.stem().string());
+  world.description = top.text("description", world.description);
+  if (!extends || top.has("building")) replace_building(top, world);
+  world.plan_uncertainty_m = not_negative(top, "plan_uncertainty", world.plan_uncertainty_m);
+  world.clutter_share = share(top, "clutter", world.clutter_share);
+  world.people = top.integer_within("people", world.people, 0, 100);
+  world.robot_radius_m = positive(top, "robot_radius", world.robot_radius_m);
+  if (top.has("drive")) world.drive = read_drive(top.map("drive"));
+  if (!extends || top.has("path")) read_path(top, world, file.string(), pending);
+  if (top.has("changes")) pending.changes = top.maps("changes");
+  read_initial_pose(top, world);
+  if (!extends || top.has("sensors")) replace_sensors(top, world);
   if (top.has("nuisances")) read_nuisances(top.map("nuisances"), world.nuisances);
   if (top.has("failures")) read_failures(top, world);
   top.close();

@@ -41,6 +41,16 @@ TEST_F(Command, EgoMotionMapsWithoutPoses) {
   EXPECT_GT(score["accuracy"].get<double>(), 0.9) << score;
 }
 
+TEST_F(Command, EgoMotionTakesTheLinesOfAHoughTransform) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data --seed 3").status, 0);
+  ASSERT_EQ(credo("map data --poses ego --out segments").status, 0);
+  const Answer answer = credo("map data --poses ego --lines hough --out hough");
+  ASSERT_EQ(answer.status, 0) << answer.error;
+  EXPECT_NE(read("hough/map.pgm"), read("segments/map.pgm"));
+  EXPECT_THAT(credo("map data --lines hough --out none").error, HasSubstr("it goes with --poses ego"));
+}
+
 TEST_F(Command, APoseIsSetByHandDuringTheDrive) {
   write_small_world();
   ASSERT_EQ(credo("simulate small.yaml --out data --seed 3").status, 0);

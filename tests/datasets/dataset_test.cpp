@@ -382,6 +382,22 @@ TEST_F(SmallDataset, DeeplyNestedYamlIsRefusedNotCrashedOn) {
 }
 
 /// Whatever is in a file, the outcome is a dataset or a complaint that names the file or one that it names.
+TEST_F(SmallDataset, SonarRangesAreThoseOfTheAirTheyWereTakenIn) {
+  const std::string yaml = read_all(folder_ / "sonar0/sensor.yaml");
+  temporary_.write("small/sonar0/sensor.yaml", yaml + "air_temperature: 5\nsound_speed: 340\n");
+  const Dataset cold = Dataset::open(folder_);
+  const double factor = 331.3 * std::sqrt(1.0 + 5.0 / 273.15) / 340.0;
+  EXPECT_NEAR(cold.sonar[0][0].ranges_m[0], 1.01 * factor, 1e-6);
+  EXPECT_TRUE(std::isinf(cold.sonar[0][0].ranges_m[1]));
+  EXPECT_NEAR(cold.header.rig.sonar_rings[0].range_max_m, 3.0 * factor, 1e-12);
+  temporary_.write("small/sonar0/sensor.yaml", yaml + "air_temperature: 20\n");
+  EXPECT_NEAR(Dataset::open(folder_).sonar[0][0].ranges_m[0], 1.01, 1e-6);
+  temporary_.write("small/sonar0/sensor.yaml", yaml + "sound_speed: 340\n");
+  EXPECT_THAT(complaint_of_opening(), HasSubstr("has no effect without air_temperature"));
+  temporary_.write("small/sonar0/sensor.yaml", yaml + "air_temperature: -300\n");
+  EXPECT_THAT(complaint_of_opening(), HasSubstr("sensor.yaml:"));
+}
+
 TEST_F(SmallDataset, AnyDamageEndsInADatasetOrAComplaint) {
   std::mt19937 random(7);
   const auto below = [&random](std::size_t n) { return random() % n; };

@@ -193,6 +193,21 @@ TEST(GridFile, AForgedFileGetsNoMemory) {
   expect_error(with_number(whole, last + 8, 50'000, 4), "more bytes than the file has");
 }
 
+/// One whose index alone would take 64 GiB, were it as long as it says; on disk it takes a block.
+TEST(GridFile, AFileOfHolesGetsNoMemory) {
+  const TemporaryFolder folder;
+  write_grid(small_grid(), folder / "map.cgrid");
+  constexpr std::uint64_t kTerabyte = std::uint64_t{1} << 40;
+  std::string header = read_all(folder / "map.cgrid").substr(0, 64);
+  header = with_number(with_number(header, 40, std::uint64_t{1} << 32, 8), 48, kTerabyte, 8);
+  folder.write("map.cgrid", with_checksums(header));
+  std::error_code error;
+  std::filesystem::resize_file(folder / "map.cgrid", kTerabyte, error);
+  if (error) GTEST_SKIP() << "no file of holes can be made here: " << error.message();
+  EXPECT_THAT([&] { (void)GridFile(folder / "map.cgrid"); },
+              ThrowsMessage<FormatError>(HasSubstr("a tile takes fewer bytes than a packed tile can")));
+}
+
 TEST(GridFile, ATileOfForgedEvidenceIsRefused) {
   grids::Tile tile, read;
   tile.empty[17] = 1;  // a logarithm above zero

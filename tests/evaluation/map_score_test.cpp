@@ -3,6 +3,7 @@
 
 #include "evaluation/map_score.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -76,6 +77,15 @@ TEST(MapScore, AMapOfAnotherPlaceIsRefused) {
   grids::MassMap map = map_with_wall(7);
   map.georeference.origin_x_m = 100.0;
   EXPECT_THROW(static_cast<void>(map_score(map, truth())), std::invalid_argument);
+}
+
+TEST(TrueCells, ATruthOfKilometresIsRefusedBeforeRoomIsMadeForIt) {
+  datasets::OccupancyMap wide = truth();
+  wide.resolution_m = 100.0;  // not 0.1
+  const grids::Georeference georeference{.resolution_m = 0.05};
+  EXPECT_THAT([&] { TrueCells(wide, georeference, box_of(wide, georeference)); },
+              ::testing::ThrowsMessage<std::length_error>(
+                  ::testing::HasSubstr("over 1000 m x 600 m, 240032001 cells; expected at most 67108864")));
 }
 
 }  // namespace

@@ -100,6 +100,16 @@ TEST(PointMotion, CovarianceIsThatOfTheErrorsItMakes) {
   EXPECT_LT((scatter - told).norm(), 0.1 * told.norm()) << scatter << "\n\n" << told;
 }
 
+TEST(PointMotion, CovarianceIsFiniteHoweverFarThePointsAre) {
+  std::vector<PointPair> pairs(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    pairs[i].before = pairs[i].now = {2e3, 2e3 + 1e-5 * static_cast<double>(i)};
+    pairs[i].before_covariance = pairs[i].now_covariance = 1e-4 * Eigen::Matrix2d::Identity();
+  }
+  const Matrix3d covariance = point_motion_estimate(pairs).covariance;
+  EXPECT_NEAR(covariance(2, 2) * 0.5e-10, 2e-4, 1e-9);  // of the turn: the points' over what they are apart
+}
+
 TEST(PointMotion, RefusesPointsThatTellNoTurn) {
   using ::testing::HasSubstr;
   using ::testing::ThrowsMessage;
@@ -109,10 +119,14 @@ TEST(PointMotion, RefusesPointsThatTellNoTurn) {
   EXPECT_THAT([&] { (void)point_motion(one); }, ThrowsMessage<std::invalid_argument>(HasSubstr("found 1 pairs")));
   EXPECT_THAT([&] { (void)point_motion_estimate(same); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("3 pairs at a single place")));
-  const std::vector<PointPair> met{{.before = {0.0, 0.0}, .now = {2.0, 2.0}},
-                                   {.before = {1.0, 0.0}, .now = {2.0, 2.0}}};
-  EXPECT_THAT([&] { (void)point_motion_estimate(met); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("2 pairs at a single place")));
+  for (const bool forth : {true, false}) {
+    const Vector2d a(0.0, 0.0), b(1.0, 0.0), here(2.0, 2.0);
+    const std::vector<PointPair> to_one{
+        forth ? PointPair{.before = a, .now = here} : PointPair{.before = here, .now = a},
+        forth ? PointPair{.before = b, .now = here} : PointPair{.before = here, .now = b}};
+    EXPECT_THAT([&] { (void)point_motion_estimate(to_one); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr("2 pairs at a single place")));
+  }
   std::vector<PointPair> broken{pair, {.before = {0.0, std::numeric_limits<double>::quiet_NaN()}, .now = {}}};
   EXPECT_THAT([&] { (void)point_motion(broken); }, ThrowsMessage<std::invalid_argument>(HasSubstr("not all finite")));
 }
