@@ -12,6 +12,7 @@
 namespace credo::apps {
 namespace {
 
+using evaluation::as_in_papers;
 using evaluation::MapDrive;
 using evaluation::MapMethod;
 using mapping::Li2007Params;
@@ -22,13 +23,6 @@ constexpr double kPrintedEpsilon_m = 0.1;  // not in the paper
 mapping::TrajectoryMappingParams room_params(const mapping::SonarParams& sonar) {
   mapping::TrajectoryMappingParams params;
   params.mapper.sonar = sonar;
-  return params;
-}
-
-/// As a paper has it: each reading counts in full, wherever it was taken.
-mapping::TrajectoryMappingParams paper_params(const mapping::SonarParams& sonar) {
-  mapping::TrajectoryMappingParams params = room_params(sonar);
-  params.mapper.freshness.correlation = 0.0;
   return params;
 }
 
@@ -51,8 +45,8 @@ struct RoomMethod {
 enum : std::size_t { kPrintedDsmc = 1, kPrintedDempster = 2, kResolvedDsmc = 4, kResolvedDempster = 5 };
 
 std::vector<RoomMethod> room_methods() {
-  const auto printed = paper_params(formulas(Variant::kPrinted, 1.0, kPrintedEpsilon_m, 1.0)),
-             resolved = paper_params(formulas(Variant::kResolved, 1.0, kPrintedEpsilon_m, 1.0));
+  const auto printed = as_in_papers(formulas(Variant::kPrinted, 1.0, kPrintedEpsilon_m, 1.0)),
+             resolved = as_in_papers(formulas(Variant::kResolved, 1.0, kPrintedEpsilon_m, 1.0));
   const mapping::DsmcFold dsmc;
   const mapping::DempsterFold dempster;
   return {
@@ -62,8 +56,8 @@ std::vector<RoomMethod> room_methods() {
       {{"DSmT, resolved, Bel(occupied) > 1/2", resolved, dsmc}, "97", true},
       {{"DSmT, resolved, larger mass", resolved, dsmc}, "97"},
       {{"the resolved masses, Dempster", resolved, dempster}, ""},
-      {{"DST (Su), chord in cells", paper_params(mapping::SuParams{}), dempster}, "93"},
-      {{"DST (Su), chord in metres", paper_params(mapping::SuParams{.unit_m = 1.0}), dempster}, "93"},
+      {{"DST (Su), chord in cells", as_in_papers(mapping::SuParams{}), dempster}, "93"},
+      {{"DST (Su), chord in metres", as_in_papers(mapping::SuParams{.unit_m = 1.0}), dempster}, "93"},
       {{"Credo's default (rho_v 100, discounted)", room_params(Li2007Params{}), grids::ReadOut::kDempster}, ""},
       {{"Credo, calibrated", room_params(mapping::CalibratedSonarParams{}), grids::ReadOut::kDempster}, ""},
   };
@@ -86,7 +80,7 @@ MapTable sweep_table(const std::vector<MapDrive>& drives, const std::function<vo
           empty_row(fmt::format("eps {:g} m, reliability {:g}", epsilon_m, reliability), "", table.columns.size()));
       for (std::size_t i = 0; i < sweep.rho_v.size(); ++i)
         for (const MapDrive& drive : drives) {
-          const MapMethod method{"", paper_params(formulas(Variant::kResolved, sweep.rho_v[i], epsilon_m, reliability)),
+          const MapMethod method{"", as_in_papers(formulas(Variant::kResolved, sweep.rho_v[i], epsilon_m, reliability)),
                                  grids::ReadOut::kDempster};
           row.values[i].add(evaluation::map_score(evaluation::map_by(method, drive).map, drive.truth).accuracy());
           made();

@@ -70,7 +70,8 @@ void add_map(const Fleet& fleet, std::size_t row, const std::string& title, cons
 
 void add_pcr2(const Fleet& fleet, std::size_t k, const FleetScenario& scenario) {
   const MapperParams params = params_with(scenario.sonar);
-  const MapDrive nobody{.T_map_base = fleet.second.T_map_base, .rig = fleet.second.rig};
+  const MapDrive nobody{
+      .T_map_base = fleet.second.T_map_base, .rig = fleet.second.rig, .scans = {}, .sweeps = {}, .truth = {}};
   const grids::MassMap two = evaluation::fused_by_pcr2(fleet.first, fleet.second, params, Order::kByTime);
   add_map(fleet, 2 * k, scenario.name + ": I", evaluation::fused_by_pcr2(fleet.first, nobody, params, Order::kByTime));
   add_map(fleet, 2 * k + 1, scenario.name + ": I, II", two);

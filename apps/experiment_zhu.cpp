@@ -32,10 +32,7 @@ std::vector<ZhuSetting> zhu_settings() {
 }
 
 MapMethod method_of(const ZhuSetting& s, Approximation approximation) {
-  mapping::TrajectoryMappingParams params;
-  params.mapper.sonar = mapping::ZhuParams{.rho = s.rho, .cells_of_arc = s.n};
-  params.mapper.freshness.correlation = 0.0;  // the paper counts every reading in full
-  return {"", params,
+  return {"", evaluation::as_in_papers(mapping::ZhuParams{.rho = s.rho, .cells_of_arc = s.n}),
           mapping::ApproximatedDempsterFold{{.e1 = s.e, .e2 = s.e, .e3 = s.e, .approximation = approximation}}};
 }
 

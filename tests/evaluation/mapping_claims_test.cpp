@@ -54,24 +54,25 @@ TEST(MappingClaims, DsmcAndDempsterDecideAlikeReadingByReadingButForUnderflow) {
   }
 }
 
-/// A third of the settings of `credo reproduce improved-ds`: n = 20.
+/// The settings of `credo reproduce improved-ds`.
 TEST(MappingClaims, TheAdaptiveApproximationLeavesAFifthFewerWrongCells) {
   using mapping::Approximation;
   const MapDrive drive = play_for_mapping(shipped("zhu"), 1);
   SweptErrors fixed, adaptive;
-  const auto wrong = [&](double e, double rho, Approximation approximation) {
+  const auto wrong = [&](double e, double rho, double n, Approximation approximation) {
     MapMethod method{
         "", {}, mapping::ApproximatedDempsterFold{{.e1 = e, .e2 = e, .e3 = e, .approximation = approximation}}};
-    method.params.mapper.sonar = mapping::ZhuParams{.rho = rho, .cells_of_arc = 20.0};
+    method.params.mapper.sonar = mapping::ZhuParams{.rho = rho, .cells_of_arc = n};
     method.params.mapper.freshness.correlation = 0.0;
     const MapScore score = map_score(decided_by_zhu(map_by(method, drive).map), drive.truth);
     return static_cast<double>(score.cells - score.right);
   };
   for (const double e : {0.01, 0.05, 0.1})
-    for (const double rho : {0.1, 0.3, 0.5, 0.9}) {
-      fixed.push_back({wrong(e, rho, Approximation::kFixed)});
-      adaptive.push_back({wrong(e, rho, Approximation::kAdaptive)});
-    }
+    for (const double rho : {0.1, 0.3, 0.5, 0.9})
+      for (const double n : {10.0, 20.0, 40.0}) {
+        fixed.push_back({wrong(e, rho, n, Approximation::kFixed)});
+        adaptive.push_back({wrong(e, rho, n, Approximation::kAdaptive)});
+      }
   EXPECT_GE(median_of(reductions(fixed, adaptive)), 0.20);
 }
 
