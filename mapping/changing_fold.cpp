@@ -22,10 +22,9 @@ GridMass aged(const GridMass& mass, double empty_kept, double occupied_kept) {
   return {.empty = empty, .occupied = occupied, .conflict = 0.0, .unknown = 1.0 - empty - occupied};
 }
 
-/// Nothing where they contradict each other in everything.
-std::optional<GridMass> with_dempster(const GridMass& a, const GridMass& b) {
-  const auto fused = evidence::without_conflict(evidence::dsmc(a, b));
-  return fused ? std::optional(evidence::discount(*fused, kMostCertain)) : std::nullopt;
+/// Of a mass that holds some ignorance and a reading that is not conflict alone: something is left.
+GridMass with_dempster(const GridMass& mass, const GridMass& reading) {
+  return evidence::discount(evidence::without_conflict(evidence::dsmc(mass, reading)).value(), kMostCertain);
 }
 
 using State = ChangingFold::State;
@@ -37,19 +36,14 @@ State opposite(State state) { return state == State::kOccupied ? State::kEmpty :
 
 /// What is and what the account holds fade, each kind at its own rate; what has faded too far is dropped.
 void ChangingFold::age(Cell& cell, sensors::Timestamp time) const {
-  if (cell.was_seen && time > cell.seen) {
-    const double passed_s = sensors::seconds_between(cell.seen, time);
-    const double empty_kept = std::pow(params.empty_kept_per_s, passed_s);
-    const double occupied_kept = std::pow(params.occupied_kept_per_s, passed_s);
-    cell.mass = aged(cell.mass, empty_kept, occupied_kept);
-    cell.account = aged(cell.account, empty_kept, occupied_kept);
-  }
-  cell.seen = time;
-  cell.was_seen = true;
+  if (!cell.was_seen || time <= cell.seen) return;
+  const double passed_s = sensors::seconds_between(cell.seen, time);
+  const double empty_kept = std::pow(params.empty_kept_per_s, passed_s);
+  const double occupied_kept = std::pow(params.occupied_kept_per_s, passed_s);
+  cell.mass = aged(cell.mass, empty_kept, occupied_kept);
+  cell.account = aged(cell.account, empty_kept, occupied_kept);
   if (!cell.settled) return;
-  if (cell.open && belief_in(cell.account, opposite(cell.state)) < params.contradicts_above &&
-      belief_in(cell.account, cell.state) < params.contradicts_above)
-    cell.open = false;
+  if ((cell.state == State::kOccupied ? empty_kept : occupied_kept) < params.account_kept) cell.open = false;
   const double left = belief_in(cell.mass, cell.state);
   if (left >= params.settled_at || (cell.open && left >= params.settles_until)) return;
   if (cell.open) cell.mass = cell.account;  // for want of better: all that is not long ago
@@ -57,9 +51,9 @@ void ChangingFold::age(Cell& cell, sensors::Timestamp time) const {
 }
 
 /// A reading of a cell that is in no state: contradiction goes to ignorance.
-bool ChangingFold::settle(Cell& cell, const GridMass& reading, sensors::Timestamp time) const {
+void ChangingFold::settle(Cell& cell, const GridMass& reading, sensors::Timestamp time) const {
   cell.mass = evidence::discount(evidence::dsmh(std::array{cell.mass, reading}).mass, kMostCertain);
-  if (std::max(cell.mass.occupied, cell.mass.empty) < params.settled_at) return true;
+  if (std::max(cell.mass.occupied, cell.mass.empty) < params.settled_at) return;
   const State state = cell.mass.occupied > cell.mass.empty ? State::kOccupied : State::kEmpty;
   if (state != cell.state) {
     cell.changes += cell.state != State::kNone ? 1 : 0;
@@ -67,16 +61,16 @@ bool ChangingFold::settle(Cell& cell, const GridMass& reading, sensors::Timestam
   }
   cell.state = state;
   cell.settled = true;
-  return true;
 }
 
 /// A reading of a cell whose state is contradicted, by it or by one before.
-bool ChangingFold::keep_account(Cell& cell, const GridMass& reading, sensors::Timestamp time) const {
-  const auto account = with_dempster(cell.open ? cell.account : GridMass::vacuous(), reading);
-  if (!account) return false;
-  if (!cell.open) cell.contradicted = time;
-  cell.open = true;
-  cell.account = *account;
+void ChangingFold::keep_account(Cell& cell, const GridMass& reading, sensors::Timestamp time) const {
+  if (!cell.open) {
+    cell.open = true;
+    cell.contradicted = time;
+    cell.account = GridMass::vacuous();
+  }
+  cell.account = with_dempster(cell.account, reading);
   if (belief_in(cell.account, opposite(cell.state)) >= params.changed_at) {
     cell.mass = cell.account;
     cell.state = opposite(cell.state);
@@ -84,20 +78,23 @@ bool ChangingFold::keep_account(Cell& cell, const GridMass& reading, sensors::Ti
     cell.open = false;
     ++cell.changes;
   } else if (belief_in(cell.account, cell.state) >= params.settles_until) {  // the readings since confirm it
-    cell.mass = with_dempster(cell.mass, cell.account).value_or(cell.mass);
+    cell.mass = with_dempster(cell.mass, cell.account);
     cell.open = false;
   }
-  return true;
 }
 
 bool ChangingFold::update(Cell& cell, const GridMass& reading, sensors::Timestamp time) const {
+  if (!evidence::without_conflict(reading)) return false;
   age(cell, time);
-  if (!cell.settled) return settle(cell, reading, time);
-  if (cell.open || belief_in(reading, opposite(cell.state)) > belief_in(reading, cell.state))
-    return keep_account(cell, reading, time);
-  const auto confirmed = with_dempster(cell.mass, reading);
-  if (confirmed) cell.mass = *confirmed;
-  return confirmed.has_value();
+  cell.seen = cell.was_seen ? std::max(cell.seen, time) : time;
+  cell.was_seen = true;
+  if (!cell.settled)
+    settle(cell, reading, time);
+  else if (cell.open || belief_in(reading, opposite(cell.state)) > belief_in(reading, cell.state))
+    keep_account(cell, reading, time);
+  else
+    cell.mass = with_dempster(cell.mass, reading);
+  return true;
 }
 
 std::optional<sensors::Timestamp> since_when(const ChangingFold::Cell& cell) {

@@ -20,9 +20,9 @@ struct ChangingParams {
   double changed_at = 0.97;  ///< belief in the opposite, of all readings since the first contradiction, from which the
                              ///< cell has changed: two readings of a laser that agree
   double settles_until = 0.5;  ///< belief in the state, of the same readings, from which the contradiction was noise
-  /// Belief in the opposite that a contradiction has to have left: one that has aged below it says nothing any more
-  /// together with another.
-  double contradicts_above = 0.5;
+  /// A time without readings that leaves less than this share of what an account holds against the state ends it, as
+  /// what comes then is another matter. A share, so that weak readings add up as strong ones do.
+  double account_kept = 0.5;
 };
 
 /// A cell of a world that changes: DSm hybrid rule over time. "Empty and occupied" is nothing at one moment, so what a
@@ -55,8 +55,8 @@ struct ChangingFold {
 
  private:
   void age(Cell& cell, sensors::Timestamp time) const;
-  [[nodiscard]] bool settle(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time) const;
-  [[nodiscard]] bool keep_account(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time) const;
+  void settle(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time) const;
+  void keep_account(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time) const;
 };
 static_assert(CellRule<ChangingFold>);
 

@@ -113,6 +113,20 @@ TEST(ChangingFold, WhatFlickersIsInNoStateInTheEnd) {
   EXPECT_LE(watched.cell.changes, 2);
 }
 
+/// As a sonar's, or a laser's from far away.
+TEST(ChangingFold, WeakReadingsAddUpToAChange) {
+  constexpr GridMass kHardlyEmpty{.empty = 0.4, .occupied = 0.02, .conflict = 0.0, .unknown = 0.58};
+  constexpr GridMass kHardlyOccupied{.empty = 0.02, .occupied = 0.4, .conflict = 0.0, .unknown = 0.58};
+  Watched watched;
+  watched.see(kHardlyEmpty, 30);
+  ASSERT_TRUE(since_when(watched.cell));
+  const sensors::Timestamp put_there = watched.now + kSecond;
+  watched.see(kHardlyOccupied, 10);
+  EXPECT_TRUE(watched.occupied());
+  EXPECT_EQ(watched.cell.changes, 1);
+  EXPECT_EQ(since_when(watched.cell), put_there);
+}
+
 TEST(ChangingFold, TimeMayBeginAtZero) {
   Watched watched;
   watched.now = -kSecond;  // the first reading is of time 0
@@ -122,13 +136,17 @@ TEST(ChangingFold, TimeMayBeginAtZero) {
   EXPECT_LT(watched.cell.mass.empty, 0.01);
 }
 
-TEST(ChangingFold, AReadingThatIsConflictAloneIsAbandoned) {
-  Watched watched;
-  watched.see(kSaysEmpty, 10);
-  const GridMass before = watched.cell.mass;
-  EXPECT_FALSE(
-      watched.rule.update(watched.cell, {.empty = 0.0, .occupied = 0.0, .conflict = 1.0, .unknown = 0.0}, watched.now));
-  EXPECT_EQ(watched.cell.mass, before);
+TEST(ChangingFold, AReadingThatIsConflictAloneLeavesACellAsItWas) {
+  for (const int times : {1, 10}) {  // in no state, and settled
+    Watched watched;
+    watched.see(kSaysEmpty, times);
+    const ChangingFold::Cell before = watched.cell;
+    EXPECT_FALSE(watched.rule.update(watched.cell, {.empty = 0.0, .occupied = 0.0, .conflict = 1.0, .unknown = 0.0},
+                                     watched.now + 3600 * kSecond));
+    EXPECT_EQ(watched.cell.mass, before.mass);
+    EXPECT_EQ(watched.cell.seen, before.seen);
+    EXPECT_EQ(watched.cell.settled, before.settled);
+  }
 }
 
 TEST(ChangingFold, AnUnseenCellIsInNoState) {
