@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/mapping/readings.hpp"
 
 namespace credo::evaluation {
@@ -56,6 +58,37 @@ TEST(ChangeScore, ARuleForAWorldThatChangesFollowsAndASumDoesNot) {
   EXPECT_GT(changing.followed_5(), 0.95);
   EXPECT_LT(changing.wrong_share(), 0.03);
   EXPECT_LT(world.score(grids::ReadOut::kDempster).followed_5(), 0.6);
+}
+
+/// The same from one place: the score is of the map that map_along makes, where readings at rest count less and less.
+TEST(ChangeScore, IsOfTheMapThatTheUserGets) {
+  MovingWall world;
+  const Pose2 here{1.0, 2.0, 0.0};
+  std::vector<sensors::OdometryReading> rows = world.path.rows();
+  for (sensors::OdometryReading& row : rows) row.T_odom_base = here;
+  world.path = sensors::MotionPath(std::move(rows));
+  for (std::size_t step = 0; step < world.scans.size(); ++step)
+    world.scans[step].ranges_m =
+        scan_of_room(world.rig.range_finders[0], here, step >= 50 && step < 100 ? 3.02 : 5.02, 4.0).ranges_m;
+  for (const char* name : {"changing", "pcr2", "dsmh"})
+    EXPECT_GT(world.score(mapping::map_rule(name).rule).followed_5(), 0.95) << name;
+
+  mapping::TrajectoryMappingParams halves;
+  halves.mapper.freshness.correlation = 0.5;  // in the end a sum sees nothing more, and no cell counts as seen
+  const ChangeScore sum =
+      change_score(world.path, world.rig, world.scans, world.states, halves, mapping::MapRule{mapping::DempsterFold{}});
+  EXPECT_EQ(sum.changed_5, 0);
+}
+
+TEST(ChangeScore, WhereNothingChangedThereIsNoShareOfIt) {
+  MovingWall world;
+  world.states.resize(1);
+  const ChangeScore score = world.score(mapping::Pcr2Fold{});
+  EXPECT_EQ(score.changed_5, 0);
+  EXPECT_TRUE(std::isnan(score.followed_3()));
+  EXPECT_TRUE(std::isnan(score.followed_5()));
+  EXPECT_GT(score.unchanged, 0);
+  EXPECT_FALSE(std::isnan(score.wrong_share()));
 }
 
 TEST(ChangeScore, WithoutAStateNothingCanBeSaid) {

@@ -99,15 +99,18 @@ TEST(MapRule, FoldsTakeReadingsInByTimeHoweverTheyAreGiven) {
 TEST(MapRule, ARobotAtRestFollowsAChangeByRulesThatForget) {
   const sensors::Rig rig = rig_with(panoramic());
   const Pose2 here{1.0, 2.0, 0.3};
+  std::vector<sensors::OdometryReading> rows;
   std::vector<sensors::RangeScan> scans;
   for (int k = 0; k < 108; ++k) {
+    rows.push_back({k * kStep, here});
     scans.push_back(scan_of_room(rig.range_finders[0], here, k < 100 ? 5.0 : 4.0, 4.0));
     scans.back().time = k * kStep;
   }
-  const sensors::MotionPath path(std::vector<sensors::OdometryReading>{{0, here}, {108 * kStep, here}});
+  const sensors::MotionPath path(std::move(rows));
   for (const char* name : {"changing", "dsmh", "pcr2", "pcr5"}) {
-    const grids::MassMap map = map_along(path, rig, scans, {}, {}, map_rule(name).rule).map;
-    const evidence::GridMass wall = map.at(map.georeference.cell_at({4.02, 2.0}));
+    const RuleMap made = map_along(path, rig, scans, {}, {}, map_rule(name).rule);
+    EXPECT_EQ(made.without_pose, 0);
+    const evidence::GridMass wall = made.map.at(made.map.georeference.cell_at({4.02, 2.0}));
     EXPECT_GT(wall.occupied, wall.empty) << name;
   }
 }
