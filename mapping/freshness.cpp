@@ -3,6 +3,7 @@
 
 #include "mapping/freshness.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -22,11 +23,20 @@ Freshness::Freshness(const FreshnessParams& params) : params_(params) {
 }
 
 double Freshness::of_next(Place& place, const geometry::Pose2& T_map_base) const {
-  const double way_m = (T_map_base.translation() - place.T_map_base.translation()).norm();
-  const double turn_rad = std::abs(geometry::wrap_angle(T_map_base.theta - place.T_map_base.theta));
-  const bool still = place.read > 0.0 && way_m <= params_.still_m && turn_rad <= params_.still_rad;
-  const double read = still ? place.read : place.read * std::exp(-way_m / params_.way_m - turn_rad / params_.turn_rad);
-  place = {still ? place.T_map_base : T_map_base, read + 1.0};
+  geometry::Pose2& rest = place.T_map_base;
+  if (place.read == 0.0) rest = T_map_base;
+  const Eigen::Vector2d offset = T_map_base.translation() - rest.translation();
+  const double turned = geometry::wrap_angle(T_map_base.theta - rest.theta);
+  const double way_m = std::max(0.0, offset.norm() - params_.still_m);
+  const double turn_rad = std::max(0.0, std::abs(turned) - params_.still_rad);
+  if (way_m > 0.0) {
+    const Eigen::Vector2d way = offset * (way_m / offset.norm());
+    rest.x += way.x();
+    rest.y += way.y();
+  }
+  rest.theta = geometry::wrap_angle(rest.theta + std::copysign(turn_rad, turned));
+  const double read = place.read * std::exp(-way_m / params_.way_m - turn_rad / params_.turn_rad);
+  place.read = read + 1.0;
   // g(n + 1) - g(n) over one denominator: no cancellation however large n is
   const double rho = params_.correlation;
   const double share = (1.0 - rho) / ((1.0 + read * rho) * (1.0 + (read - 1.0) * rho));

@@ -16,7 +16,8 @@ struct FreshnessParams {
   double correlation = 0.1;
   double way_m = 0.01;      ///< after this way what was said is forgotten to 1 / e: the place is another one,
   double turn_rad = 0.005;  ///< or after this turn
-  /// A pose that stays within these of where the robot came to rest has not moved: localized poses are not that sure.
+  /// A pose within these of the robot's place has not moved: localized poses are not that sure. Beyond them it takes
+  /// the place along, and only that is way and turn.
   double still_m = 0.01;
   double still_rad = 0.015;
 };
@@ -27,8 +28,8 @@ struct FreshnessParams {
 ///     g(n) = n / (1 + (n - 1) correlation)
 ///
 /// independent ones (the design effect of Kish 1965), and the next one adds g(n + 1) - g(n). n is what has
-/// been read from here: it fades by exp(-way / way_m - turn / turn_rad) with the way and the turn from where the
-/// sensor's readings were, once these are more than nothing. In the map shares are rounded to steps of a reliability of
+/// been read from here: it fades by exp(-way / way_m - turn / turn_rad) with the way and the turn that the sensor's
+/// place is taken along from each reading to the next. In the map shares are rounded to steps of a reliability of
 /// 1/32. A pure function of the poses of each sensor's readings in the order of their times.
 class Freshness {
  public:
@@ -47,7 +48,7 @@ class Freshness {
 
  private:
   struct Place {
-    geometry::Pose2 T_map_base;  ///< where it came to rest, or was last
+    geometry::Pose2 T_map_base;  ///< follows the pose, still_m and still_rad behind
     double read = 0.0;           ///< n, from here
   };
   [[nodiscard]] double of_next(Place& place, const geometry::Pose2& T_map_base) const;
