@@ -30,6 +30,7 @@
 #include "mapping/map_rule.hpp"
 #include "mapping/mapper.hpp"
 #include "results/belief_tiff.hpp"
+#include "results/cell_history.hpp"
 #include "results/config.hpp"
 #include "results/map_folder.hpp"
 #include "results/map_sheet.hpp"
@@ -154,6 +155,7 @@ bool write_map_files(const MapOptions& o, const mapping::RuleMap& made, std::spa
   datasets::write_map(trinary ? results::to_occupancy(made.map) : results::to_probabilities(made.map),
                       folder / "map.yaml", o.map_mode);
   results::write_belief_tiff(results::belief_image(made.map), folder / "map_belief.tiff");
+  if (!made.history.empty()) results::write_cell_history(made.history, made.map.georeference, folder / "history.csv");
   if (!pictures) return true;
   const std::string title = std::string(mapping::name_of(o.params.mapper.sonar)) + " " + o.rule;
   results::write_png(pictures->path() / "map.png",
@@ -195,6 +197,16 @@ grids::CellBox box_of(const Made& made) {
   return std::get<mapping::RuleMap>(made).map.box;
 }
 
+/// How many cells changed; empty where the rule does not know.
+std::string changes_text(const Made& made) {
+  const auto* by_rule = std::get_if<mapping::RuleMap>(&made);
+  if (by_rule == nullptr || by_rule->history.empty()) return {};
+  const auto changed =
+      std::ranges::count_if(by_rule->history, [](const mapping::CellHistory& row) { return row.changes > 0; });
+  return "changed: " + std::to_string(changed) + " of " + std::to_string(by_rule->history.size()) +
+         " settled cells; credo cell says since when";
+}
+
 void execute(MapOptions o) {
   const auto [parts, poses] = read_map_parts(o.from);
   if (o.out.empty())
@@ -233,6 +245,7 @@ void execute(MapOptions o) {
               static_cast<long long>(without_pose));
   std::printf("map: %s (%d x %d cells of %g m)\n", o.out.c_str(), box.width, box.height,
               o.params.mapper.georeference.resolution_m);
+  if (const std::string changed = changes_text(made); !changed.empty()) std::printf("%s\n", changed.c_str());
   if (!verdicts.empty()) std::printf("transducers: %s\n", mapping::summary(verdicts).c_str());
   if (!o.pictures.empty()) std::printf("pictures: %s\n", o.pictures.c_str());
 }

@@ -69,6 +69,18 @@ const NamedRule& map_rule(std::string_view name) {
 
 namespace {
 
+/// Empty for rules that keep none.
+template <CellRule Rule>
+std::vector<CellHistory> history_of([[maybe_unused]] const grids::CellGrid<typename Rule::Cell>& grid) {
+  std::vector<CellHistory> history;
+  if constexpr (std::is_same_v<Rule, ChangingFold>)
+    grid.for_each([&](grids::CellIndex cell, const ChangingFold::Cell& content) {
+      if (const auto since = since_when(content))
+        history.push_back({cell, content.state == ChangingFold::State::kOccupied, *since, content.changes});
+    });
+  return history;
+}
+
 template <CellRule Rule>
 RuleMap fold_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
                    std::span<const sensors::RangeScan> scans, std::span<const sensors::SonarSweep> sweeps,
@@ -88,7 +100,7 @@ RuleMap fold_along(const sensors::MotionPath& T_map_base, const sensors::Rig& ri
     }
     mapper.insert({{T_map_base.pose_at(reading.time), params.covariance}, params.belief}, reading, T_map_base);
   });
-  return {mapper.masses(), mapper.counts(), without_pose, mapper.abandoned()};
+  return {mapper.masses(), mapper.counts(), without_pose, mapper.abandoned(), history_of<Rule>(mapper.grid())};
 }
 
 }  // namespace
@@ -101,7 +113,7 @@ RuleMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig
       [&](const auto& chosen) -> RuleMap {
         if constexpr (std::is_same_v<std::decay_t<decltype(chosen)>, ReadOut>) {
           const TrajectoryMap map = map_along(T_map_base, rig, scans, sweeps, params, progress);
-          return {grids::mass_map(map.grid, chosen), map.counts, map.without_pose, 0};
+          return {grids::mass_map(map.grid, chosen), map.counts, map.without_pose, 0, {}};
         } else {
           return fold_along(T_map_base, rig, scans, sweeps, params, chosen, progress);
         }

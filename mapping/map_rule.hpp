@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "grids/mass_map.hpp"
 #include "mapping/cell_rules.hpp"
@@ -32,12 +33,23 @@ struct NamedRule {
 /// \throws std::invalid_argument for another name
 [[nodiscard]] const NamedRule& map_rule(std::string_view name);
 
+/// What a settled cell of the rule `changing` is, and since when.
+struct CellHistory {
+  grids::CellIndex cell;
+  bool occupied = false;
+  sensors::Timestamp since = 0;
+  std::int32_t changes = 0;  ///< how often it was found in the other state
+
+  friend bool operator==(const CellHistory&, const CellHistory&) = default;
+};
+
 /// A map of any rule.
 struct RuleMap {
   grids::MassMap map;
   MappingCounts counts;
-  std::int64_t without_pose = 0;  ///< readings left out for want of a pose near in time
-  std::int64_t abandoned = 0;     ///< readings of a cell that a fold could not take in: total conflict
+  std::int64_t without_pose = 0;       ///< readings left out for want of a pose near in time
+  std::int64_t abandoned = 0;          ///< readings of a cell that a fold could not take in: total conflict
+  std::vector<CellHistory> history{};  ///< of the rule `changing`: its settled cells, tile by tile
 };
 
 /// The map of a whole drive, as map_along of mapper.hpp. Folds take the readings in in the order of their times, those

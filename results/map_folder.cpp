@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
+#include <string>
 
 #include "datasets/grid_file.hpp"
 
@@ -20,6 +22,17 @@ evidence::FixedLogCommonality cell_of(const std::array<float, 4>& pixel) {
   return evidence::quantise({log_q(empty + unknown), log_q(occupied + unknown), log_q(unknown)});
 }
 
+/// The masses of a rule: {m(empty), m(occupied), m(conflict), m(unknown)}.
+evidence::FixedLogCommonality cell_of_rule(const std::array<float, 4>& pixel) {
+  const double sum = static_cast<double>(pixel[0]) + pixel[1] + pixel[2] + pixel[3];  // 1 but for the floats' rounding
+  const auto normal = evidence::without_conflict(
+      {.empty = pixel[0] / sum, .occupied = pixel[1] / sum, .conflict = pixel[2] / sum, .unknown = pixel[3] / sum});
+  if (!normal) return {};
+  constexpr double kMost = evidence::FixedLogCommonality::kMaxReliability;
+  const double least_unknown = 1.0 - kMost;
+  return evidence::fixed_increment(*normal, normal->unknown < least_unknown ? kMost : 1.0);
+}
+
 grids::EvidentialGrid read_pictures(const std::filesystem::path& folder) {
   const datasets::OccupancyMap where = datasets::read_map(folder / "map.yaml");
   const BeliefImage image = read_belief_tiff(folder / "map_belief.tiff");
@@ -28,6 +41,7 @@ grids::EvidentialGrid read_pictures(const std::filesystem::path& folder) {
                              std::to_string(image.height) + ", but map.yaml says " + std::to_string(where.width) +
                              " x " + std::to_string(where.height));
   }
+  const bool of_rule = is_rule_map(folder);
   grids::EvidentialGrid grid(
       {.resolution_m = where.resolution_m, .origin_x_m = where.origin_x_m, .origin_y_m = where.origin_y_m});
   for (int row = 0; row < image.height; ++row) {
@@ -35,13 +49,14 @@ grids::EvidentialGrid read_pictures(const std::filesystem::path& folder) {
       const auto& pixel =
           image.pixels[static_cast<std::size_t>(image.height - 1 - row) * static_cast<std::size_t>(image.width) +
                        static_cast<std::size_t>(column)];
-      const double sum = pixel[0] + pixel[1] + pixel[3], least = std::min({pixel[0], pixel[1], pixel[3]});
+      const double conflict = of_rule ? pixel[2] : 0.0;
+      const double sum = pixel[0] + pixel[1] + conflict + pixel[3], least = std::ranges::min(pixel);
       if (!(std::abs(sum - 1.0) < 1e-3 && least >= 0.0)) {
         throw std::runtime_error(
             (folder / "map_belief.tiff").string() +
             ": empty, occupied and unknown are no shares that sum to 1: was it written with --readout raw?");
       }
-      const evidence::FixedLogCommonality cell = cell_of(pixel);
+      const evidence::FixedLogCommonality cell = of_rule ? cell_of_rule(pixel) : cell_of(pixel);
       if (cell != evidence::FixedLogCommonality{}) grid.add({column, row}, cell);
     }
   }
@@ -49,6 +64,13 @@ grids::EvidentialGrid read_pictures(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+bool is_rule_map(const std::filesystem::path& folder) {
+  std::ifstream config(folder / "config.yaml");
+  for (std::string line; std::getline(config, line);)
+    if (line.starts_with("rule: ")) return true;
+  return false;
+}
 
 bool write_map_folder(const grids::EvidentialGrid& grid, const std::filesystem::path& folder,
                       const MapFolderParams& params) {

@@ -25,10 +25,14 @@ struct MapFolderParams {
 [[nodiscard]] bool write_map_folder(const grids::EvidentialGrid& grid, const std::filesystem::path& folder,
                                     const MapFolderParams& params = {});
 
-/// The map of a results folder: that of map.cgrid, to the bit. Where there is none, from map.yaml (where it lies) and
-/// map_belief.tiff (what is believed), which must hold normalised masses; the commonality ratios are kept then, so that
-/// decisions, masses and `contested` come out the same, and the raw conflict does not.
-/// \throws std::runtime_error naming the file that is missing or does not fit
+/// Whether a folder holds a map of a rule that takes readings in one after the other: config.yaml says so.
+[[nodiscard]] bool is_rule_map(const std::filesystem::path& folder);
+
+/// The map of a results folder: that of map.cgrid, to the bit. Of a map of a rule, its masses: their conflict divided
+/// out, and with as much ignorance as a single reading leaves at least, as commonalities have no certainty. Where there
+/// is none, from map.yaml (where it lies) and map_belief.tiff (what is believed), which must hold normalised masses;
+/// the commonality ratios are kept then, so that decisions, masses and `contested` come out the same, and the raw
+/// conflict does not. \throws std::runtime_error naming the file that is missing or does not fit
 [[nodiscard]] grids::EvidentialGrid read_map_folder(const std::filesystem::path& folder);
 
 }  // namespace credo::results

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
 #include "tests/apps/command.hpp"
 
@@ -18,6 +19,7 @@ using credo::tests::Command;
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST_F(Command, PosesOfAnotherDriveAreNoMap) {
   write_small_world();
@@ -119,6 +121,45 @@ TEST_F(Command, AnyModelWithAnyRule) {
   EXPECT_EQ(credo("map data --rule pcr7 --out none").status, 2);
   write("log", kLogWithSonar);
   EXPECT_THAT(credo("map log --rule pcr2 --out none").error, HasSubstr("give them with --poses"));
+}
+
+TEST_F(Command, ACellIsAskedWhatIsKnownOfItAndSinceWhen) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data --seed 3").status, 0);
+  const Answer made = credo("map data --rule changing --sensors range --out changing");
+  ASSERT_EQ(made.status, 0) << made.error;
+  EXPECT_THAT(made.out, HasSubstr("settled cells; credo cell says since when"));
+  ASSERT_EQ(credo("map data --sensors range --out sum").status, 0);
+  std::istringstream history(read("changing/history.csv"));
+  std::string line;
+  ASSERT_TRUE(std::getline(history, line) && std::getline(history, line));
+  const std::string x = line.substr(0, line.find(',')), rest = line.substr(line.find(',') + 1);
+  const std::string there = x + " " + rest.substr(0, rest.find(','));
+  const json asked = json::parse(credo("cell changing " + there + " --format json").out);
+  EXPECT_THAT(line, HasSubstr("," + asked["since"]["state"].get<std::string>() + ","));
+  EXPECT_EQ(asked["state"], asked["since"]["state"]);
+  EXPECT_NEAR(asked["BetP"]["empty"].get<double>() + asked["BetP"]["occupied"].get<double>(), 1.0, 1e-6);
+  EXPECT_THAT(credo("cell changing " + there).out, HasSubstr(" since "));
+  EXPECT_THAT(credo("cell sum " + there).out, AllOf(HasSubstr("DSmP"), Not(HasSubstr("since"))));
+  for (const char* map : {"changing", "sum"}) {
+    const Answer outside = credo(std::string("cell ") + map + " 5000 0");
+    EXPECT_EQ(outside.status, 1);
+    EXPECT_THAT(outside.error, HasSubstr("nothing was seen at (5000, 0)"));
+  }
+  EXPECT_THAT(credo("cell data/dataset.yaml 0 0").error, HasSubstr("expected one that credo map"));
+}
+
+/// Bayesian masses leave no ignorance and DSmC's hold the conflict: both are read as the maps that they are.
+TEST_F(Command, MapsOfEveryRuleAreScoredAndMakePlans) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data --seed 3").status, 0);
+  for (const char* rule : {"dsmc", "bayes", "bayes_betp", "dempster_fold"}) {
+    ASSERT_EQ(credo(std::string("map data --sensors range --force --out map --rule ") + rule).status, 0);
+    const Answer score = credo("evaluate map data map --format json");
+    ASSERT_EQ(score.status, 0) << rule << score.error;
+    EXPECT_GT(json::parse(score.out)["accuracy"].get<double>(), 0.9) << rule << score.out;
+    EXPECT_EQ(credo("plan map --force --out plan.yaml").status, 0) << rule;
+  }
 }
 
 }  // namespace
