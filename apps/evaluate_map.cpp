@@ -1,12 +1,16 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "apps/about.hpp"
@@ -92,6 +96,8 @@ nlohmann::ordered_json to_json(const MapScores& scores) {
   return json;
 }
 
+std::string number_or_dash(double value) { return std::isfinite(value) ? fmt::format("{:.3f}", value) : "-"; }
+
 void print_text(const MapScores& scores) {
   std::ostringstream text;
   text << scores.accuracy;
@@ -100,8 +106,9 @@ void print_text(const MapScores& scores) {
     std::printf("walls: %d torn (%.1f m of %.1f m that were reached), %d falsely joined\n", walls->torn, walls->torn_m,
                 walls->surface_m, walls->joined);
   if (const auto& plan = scores.plan)
-    std::printf("walls as a plan: precision %.3f of %.1f m, recall %.3f of %.1f m seen, mean distance %.3f m\n",
-                plan->precision(), plan->extracted_m, plan->recall(), plan->seen_m, plan->mean_distance_m);
+    std::printf("walls as a plan: precision %s of %.1f m, recall %s of %.1f m seen, mean distance %s m\n",
+                number_or_dash(plan->precision()).c_str(), plan->extracted_m, number_or_dash(plan->recall()).c_str(),
+                plan->seen_m, number_or_dash(plan->mean_distance_m).c_str());
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ cv::Mat map_sheet(std::span<const SheetMap> maps) {
   for (const SheetMap& entry : maps) box = box.united(entry.map->box);
   const int columns = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(maps.size())))));
   const int rows = (static_cast<int>(maps.size()) + columns - 1) / columns;
-  const double width = columns > 4 ? 230.0 : 320.0;
+  const double width = columns > 4 ? 230.0 : columns > 1 ? 320.0 : 520.0;  // the legend takes 500
   const double height = box.empty() ? width : width * box.height / box.width;
   Canvas canvas(static_cast<int>(columns * (width + kGap) + kGap),
                 static_cast<int>(rows * (height + kTitle + kGap) + kGap + kLegend));
