@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "apps/terminal.hpp"
 #include "datasets/acquisitions.hpp"
 #include "datasets/carmen.hpp"
+#include "datasets/grid_file.hpp"
 #include "datasets/map_server.hpp"
 #include "datasets/truth_states.hpp"
 #include "evaluation/trajectory.hpp"
@@ -124,6 +126,35 @@ ordered_json map_info(const fs::path& yaml) {
           {"unknown_share", unknown / n}};
 }
 
+/// Reads all of it, so that every checksum is checked.
+ordered_json grid_info(const fs::path& file) {
+  const datasets::GridFile whole(file);
+  const grids::EvidentialGrid grid = whole.read();
+  std::int64_t seen = 0;
+  for (const auto& [index, tile] : grid.tiles())
+    for (std::size_t i = 0; i < tile.unknown.size(); ++i)
+      seen += (tile.empty[i] | tile.occupied[i] | tile.unknown[i]) != 0 ? 1 : 0;
+  const grids::CellBox box = whole.box();
+  const auto on_disk = static_cast<double>(fs::file_size(file));
+  const double in_memory = static_cast<double>(grid.tiles().size() * sizeof(grids::Tile));
+  ordered_json out{{"kind", "evidential map"},
+                   {"name", file.filename().string()},
+                   {"resolution_m", whole.georeference().resolution_m},
+                   {"width", box.width},
+                   {"height", box.height},
+                   {"tiles", whole.tile_count()},
+                   {"seen_cells", seen},
+                   {"saturated_tiles", grid.saturated_tiles().size()}};
+  if (seen > 0) {
+    out["bytes_per_seen_cell"] = {{"file", on_disk / static_cast<double>(seen)},
+                                  {"memory", in_memory / static_cast<double>(seen)}};
+    const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * whole.georeference().resolution_m);
+    const Eigen::Vector2d low = whole.georeference().centre(box.min) - half;
+    out["from_m"] = {{"x", low.x()}, {"y", low.y()}};
+  }
+  return out;
+}
+
 ordered_json trajectory_info(const fs::path& file) {
   const evaluation::Trajectory trajectory = evaluation::read_trajectory(file);
   const evaluation::TrajectoryFacts f = evaluation::facts(trajectory);
@@ -136,11 +167,13 @@ ordered_json info(const fs::path& path) {
   if (fs::is_directory(path)) {
     if (datasets::Dataset::is_dataset(path)) return dataset_info(path);
     if (fs::exists(path / "localization.csv")) return results_info(path);
+    if (fs::exists(path / "map.cgrid")) return grid_info(path / "map.cgrid");
     if (fs::exists(path / "map.yaml")) return map_info(path / "map.yaml");
     throw std::runtime_error(path.string() +
-                             ": neither a dataset (dataset.yaml) nor results (localization.csv, map.yaml)");
+                             ": neither a dataset (dataset.yaml) nor results (localization.csv, map.cgrid, map.yaml)");
   }
   if (path.extension() == ".yaml") return map_info(path);
+  if (path.extension() == ".cgrid") return grid_info(path);
   if (datasets::is_carmen(path)) return carmen_info(path);
   return trajectory_info(path);
 }
@@ -178,7 +211,8 @@ void add_info(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "What is in a dataset, a log, a result, a map or a trajectory.");
   command->footer(
       "  credo info datasets/office\n"
-      "  credo info intel.log.gz --format json");
+      "  credo info intel.log.gz --format json\n"
+      "  credo info results/office_map/map.cgrid      tiles, seen cells, bytes for each; checks it all");
   struct Options {
     std::string path;
     OutputFormat format;

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <vector>
 
 #include "apps/about.hpp"
 #include "apps/commands.hpp"
@@ -26,6 +28,7 @@ namespace fs = std::filesystem;
 
 struct PlanOptions {
   std::string source, out = "floor_plan.yaml";
+  std::vector<double> region;  ///< two corners [m]; empty: the whole map
   bool force = false;
   grids::WallParams params;
   OutputFormat format;
@@ -52,8 +55,23 @@ geometry::FloorPlan plan_of_occupancy(const fs::path& yaml, const grids::WallPar
   return plan;
 }
 
+/// The tiles that a region touches; no others are read.
+grids::EvidentialGrid read_region(const datasets::GridFile& file, const std::vector<double>& region) {
+  const grids::CellIndex a = file.georeference().cell_at({region[0], region[1]});
+  const grids::CellIndex b = file.georeference().cell_at({region[2], region[3]});
+  const auto [low_x, high_x] = std::minmax(a.x, b.x);
+  const auto [low_y, high_y] = std::minmax(a.y, b.y);
+  return file.read(grids::CellBox{{low_x, low_y}, high_x - low_x + 1, high_y - low_y + 1});
+}
+
 geometry::FloorPlan plan_of(const PlanOptions& o) {
   const fs::path source = o.source;
+  if (!o.region.empty()) {
+    const fs::path file = fs::is_directory(source) ? source / "map.cgrid" : source;
+    if (file.extension() != ".cgrid" || !fs::exists(file))
+      throw std::runtime_error(o.source + ": only of a map.cgrid can a region be read, and there is none");
+    return grids::extract_walls(read_region(datasets::GridFile(file), o.region), o.params);
+  }
   if (fs::is_directory(source)) return grids::extract_walls(results::read_map_folder(source), o.params);
   if (source.extension() == ".yaml") return plan_of_occupancy(source, o.params);
   return grids::extract_walls(datasets::GridFile(source).read(), o.params);
@@ -82,7 +100,8 @@ void add_plan(CLI::App& app) {
   CLI::App* command = app.add_subcommand("plan", "Makes a floor plan from a grid map: its walls as straight pieces.");
   command->footer(
       "  credo plan results/office_map --out floor_plan.yaml       the map of credo map or credo run\n"
-      "  credo plan truth_map.yaml --out plan.yaml --shortest 0.5  any map_server map");
+      "  credo plan truth_map.yaml --out plan.yaml --shortest 0.5  any map_server map\n"
+      "  credo plan site/map.cgrid --region 100 40 160 90          a part of a map that is too large for pictures");
   auto o = std::make_shared<PlanOptions>();
   command->add_option("MAP", o->source, "a results folder, a map.cgrid, or a map_server YAML")
       ->check(a_path())
@@ -94,6 +113,10 @@ void add_plan(CLI::App& app) {
   command->add_option("--bridge", o->params.bridged_m, "longest gap that is closed where nobody saw through [m]")
       ->check(number_in(0, 1000))
       ->capture_default_str();
+  command
+      ->add_option("--region", o->region, "X Y X Y of two corners: of a map.cgrid only the tiles that these touch [m]")
+      ->expected(4)
+      ->check(number_in(-1e6, 1e6));
   command->add_flag("-f,--force", o->force, "replace a floor plan that is already there");
   add_format_option(*command, o->format);
   command->callback([o] { execute(*o); });

@@ -43,6 +43,25 @@ TEST_F(Command, APlanIsMadeOfAMapInAnyForm) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none.yaml"));
 }
 
+TEST_F(Command, AMapFileTellsWhatItHoldsAndIsReadInParts) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  ASSERT_EQ(credo("map data --out map").status, 0);
+  const json info = json::parse(credo("info map/map.cgrid --format json").out);
+  EXPECT_EQ(info["kind"], "evidential map");
+  EXPECT_GT(info["seen_cells"].get<int>(), 1000);
+  EXPECT_EQ(info["saturated_tiles"], 0);
+  EXPECT_GT(info["bytes_per_seen_cell"]["memory"].get<double>(), 11.9);
+  EXPECT_EQ(json::parse(credo("info map --format json").out), info);
+
+  const json whole = json::parse(credo("plan map --out whole.yaml --format json").out);
+  const json all = json::parse(credo("plan map --region -90 -90 90 90 --out all.yaml --format json").out);
+  EXPECT_EQ(all["length_m"], whole["length_m"]);
+  EXPECT_THAT(credo("plan map --region 900 900 910 910 --out none.yaml").error, HasSubstr("no wall"));
+  EXPECT_THAT(credo("plan data/truth_map.yaml --region 0 0 1 1 --out none.yaml").error,
+              HasSubstr("only of a map.cgrid can a region be read"));
+}
+
 TEST_F(Command, AMapTellsItsWallsToo) {
   write_small_world();
   ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
