@@ -207,7 +207,25 @@ std::string changes_text(const Made& made) {
          " settled cells; credo cell says since when";
 }
 
+/// What would have no effect is refused, so that nobody takes it for granted.
+void require_meaning(const MapOptions& o) {
+  const std::string& model = o.sonar.model;
+  if (o.sonar.printed && (model == "su" || model == "zhu" || model == "calibrated"))
+    throw std::runtime_error("--printed: the model '" + model +
+                             "' has one form only; those of Li X. and Li P. have two");
+  if (!o.sonar.weights.empty() && model != "calibrated")
+    throw std::runtime_error("--sonar-weights are of the model 'calibrated', not of '" + model +
+                             "': add --model calibrated");
+  if (o.rule.empty()) return;
+  if (o.readout == "raw")
+    throw std::runtime_error(
+        "--readout raw is of the map without --rule; by a rule the masses are written as they are");
+  if (o.large)
+    throw std::runtime_error("--large is of the map without --rule; by a rule all cells are read out at once");
+}
+
 void execute(MapOptions o) {
+  require_meaning(o);
   const auto [parts, poses] = read_map_parts(o.from);
   if (o.out.empty())
     o.out = (fs::path("results") / (fs::path(o.from.source).lexically_normal().stem().string() + "_map")).string();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
+#include <utility>
 
 #include "tests/apps/command.hpp"
 
@@ -147,6 +148,20 @@ TEST_F(Command, ACellIsAskedWhatIsKnownOfItAndSinceWhen) {
     EXPECT_THAT(outside.error, HasSubstr("nothing was seen at (5000, 0)"));
   }
   EXPECT_THAT(credo("cell data/dataset.yaml 0 0").error, HasSubstr("expected one that credo map"));
+}
+
+TEST_F(Command, AnOptionOfAMapThatWouldHaveNoEffectIsRefused) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data --seed 3").status, 0);
+  for (const auto& [with, said] :
+       {std::pair{"--model su --printed", "has one form only"},
+        std::pair{"--sonar-weights nofile", "add --model calibrated"},
+        std::pair{"--rule pcr2 --readout raw", "as they are"}, std::pair{"--rule pcr2 --large", "read out at once"}}) {
+    const Answer answer = credo(std::string("map data --out none ") + with);
+    EXPECT_EQ(answer.status, 1) << with;
+    EXPECT_THAT(answer.error, HasSubstr(said));
+    EXPECT_FALSE(fs::exists(folder_ / "none"));
+  }
 }
 
 /// Bayesian masses leave no ignorance and DSmC's hold the conflict: both are read as the maps that they are.
