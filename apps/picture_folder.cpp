@@ -33,10 +33,24 @@ void check(const fs::path& folder, bool force) {
 }
 
 constexpr std::string_view kOfMoments[] = {"omni_", "scan_", "plan_"};  // and a number
-constexpr std::string_view kOfTheWhole[] = {"errors",           "beliefs",           "map",         "map_empty",
-                                            "map_occupied",     "map_contested",     "map_unknown", "map_conflict",
-                                            "map_plausibility", "map_pignistic",     "map_dsmp",    "map_relief",
-                                            "positions_paper",  "positions_default", "edge_life",   "wall_between"};
+constexpr std::string_view kOfTheWhole[] = {"errors",
+                                            "beliefs",
+                                            "map",
+                                            "map_empty",
+                                            "map_occupied",
+                                            "map_contested",
+                                            "map_unknown",
+                                            "map_conflict",
+                                            "map_plausibility",
+                                            "map_pignistic",
+                                            "map_dsmp",
+                                            "map_relief",
+                                            "map_since",
+                                            "map_changes",
+                                            "positions_paper",
+                                            "positions_default",
+                                            "edge_life",
+                                            "wall_between"};
 
 /// Whether results have pictures of this name, which tells older ones from what else a person keeps beside them.
 bool is_drawn_here(std::string_view name) {

@@ -53,7 +53,7 @@ void RunPictures::draw_summary(const Outcome& outcome) const {
   results::write_png(folder_.path() / "beliefs.png", results::belief_picture(outcome.history));
   std::vector<geometry::Pose2> way;
   for (const results::Moment& m : outcome.history) way.push_back(m.localization.estimate.pose);
-  results::write_png(folder_.path() / "map.png", results::map_picture(outcome.map, way));
+  results::write_map_pictures(folder_.path(), outcome.map, way);
 }
 
 }  // namespace credo::apps

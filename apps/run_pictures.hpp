@@ -16,7 +16,7 @@ class RunPictures {
 
   /// omni_K.png, scan_K.png and plan_K.png, if acquisition K is one of those that are drawn.
   void draw(const Step& step) const;
-  /// beliefs.png, map.png, and errors.png where there is a truth.
+  /// beliefs.png, the map's pictures (results::write_map_pictures), and errors.png where there is a truth.
   void draw_summary(const Outcome& outcome) const;
   /// Puts all into their place.
   void publish() const { folder_.publish(); }

@@ -210,4 +210,17 @@ double legend(Canvas& canvas, Canvas::Point left, std::span<const LegendEntry> e
   return x;
 }
 
+void color_bar(Canvas& canvas, Color full, Canvas::Point top_left, double width, std::string_view low,
+               std::string_view high) {
+  constexpr int kSteps = 30;
+  constexpr double kHeight = 8.0;
+  const double left = top_left.x(), top = top_left.y();
+  for (int i = 0; i < kSteps; ++i)
+    canvas.box({left + width * i / kSteps, top}, {left + width * (i + 1) / kSteps, top + kHeight},
+               mixed(colors::kPaper, full, (i + 0.5) / kSteps));
+  canvas.frame(top_left, {left + width, top + kHeight}, colors::kMuted, 0.7);
+  canvas.text({left - 5.0, top + kHeight}, low, colors::kInk, 7.5, Anchor::kRight);
+  canvas.text({left + width + 5.0, top + kHeight}, high, colors::kInk, 7.5);
+}
+
 }  // namespace credo::results

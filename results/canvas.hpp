@@ -86,4 +86,8 @@ struct LegendEntry {
 /// In one row from `left`, baseline at `y`. \returns the x where it ends
 double legend(Canvas& canvas, Canvas::Point left, std::span<const LegendEntry> entries, double height = 8.0);
 
+/// A bar from white to `full`, with what its ends stand for beside it.
+void color_bar(Canvas& canvas, Color full, Canvas::Point top_left, double width, std::string_view low = "0",
+               std::string_view high = "1");
+
 }  // namespace credo::results

@@ -23,4 +23,11 @@ void write_cell_history(std::span<const mapping::CellHistory> history, const gri
 [[nodiscard]] std::vector<mapping::CellHistory> read_cell_history(const std::filesystem::path& file,
                                                                   const grids::Georeference& georeference);
 
+/// map_since.png: the later a cell came into its state, the bluer; and map_changes.png: the oftener it changed, the
+/// redder. With the scale beside them; grey is what is in no state, or was not seen.
+/// \param where  the cells that are drawn
+/// \throws std::runtime_error if a file cannot be written
+void write_cell_history_pictures(std::span<const mapping::CellHistory> history, const grids::CellBox& where,
+                                 const std::filesystem::path& folder);
+
 }  // namespace credo::results

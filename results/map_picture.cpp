@@ -81,22 +81,11 @@ constexpr std::array<LayerStyle, 8> kLayers{{
     {grids::Layer::kDsmpOccupied, "dsmp", "DSmP(occupied)", "ignorance shared as the masses", kOccupiedCell},
 }};
 
-void draw_color_bar(Canvas& canvas, Color full, double left, double right, double top) {
-  constexpr int kSteps = 30;
-  const double width = right - left;
-  for (int i = 0; i < kSteps; ++i)
-    canvas.box({left + width * i / kSteps, top}, {left + width * (i + 1) / kSteps, top + 8.0},
-               mixed(colors::kPaper, full, (i + 0.5) / kSteps));
-  canvas.frame({left, top}, {right, top + 8.0}, colors::kMuted, 0.7);
-  canvas.text({left - 5.0, top + 8.0}, "0", colors::kInk, 7.5, Anchor::kRight);
-  canvas.text({right + 5.0, top + 8.0}, "1", colors::kInk, 7.5);
-}
-
 /// Title, colour bar and the layer itself. \returns where the layer lies
 GroundView draw_layer(Canvas& canvas, const grids::EvidentialGrid& grid, const MapView& map, const LayerStyle& style,
                       Point corner, Point opposite) {
   canvas.text({corner.x(), corner.y() + 14.0}, style.title, colors::kInk, 9.0, Anchor::kLeft, 1.2);
-  draw_color_bar(canvas, style.full, opposite.x() - 106.0, opposite.x() - 16.0, corner.y() + 6.0);
+  color_bar(canvas, style.full, {opposite.x() - 106.0, corner.y() + 6.0}, 90.0);
   const GroundView view(map.low, map.high, corner + Point(0.0, 22.0), opposite);
   const Point top_left = view.at({map.low.x(), map.high.y()}), bottom_right = view.at({map.high.x(), map.low.y()});
   const std::vector<float> values = grids::layer(grid, map.box, style.layer);

@@ -31,7 +31,8 @@ TEST_F(Command, TheWholeWayOfTheData) {
               AllOf(HasSubstr("mean position error"), HasSubstr("confidently wrong"), HasSubstr("per pair")));
   for (const char* name : {"trajectory.tum", "localization.csv", "tracks.csv", "primitives.csv", "radial_lines.csv",
                            "map.yaml", "map.pgm", "map_belief.tiff", "map.cgrid", "config.yaml", "calibration.yaml",
-                           "pictures/errors.png", "pictures/beliefs.png", "pictures/map.png"}) {
+                           "pictures/errors.png", "pictures/beliefs.png", "pictures/map.png", "pictures/map_relief.png",
+                           "pictures/map_occupied.png", "pictures/map_dsmp.png"}) {
     EXPECT_TRUE(fs::exists(folder_ / "first" / name)) << name;
   }
   const json info = json::parse(credo("info data --format json").out);
@@ -131,10 +132,10 @@ TEST_F(Command, PicturesOfOlderResultsDoNotStayBesideNewOnes) {
     return names;
   };
   ASSERT_EQ(credo("run data --out out --pictures beside --moments 3").status, 0);
-  EXPECT_EQ(pictures("beside").size(), 9u);
+  EXPECT_EQ(pictures("beside").size(), 18u);
   for (const char* name : {"beside/notes.txt", "beside/planet_7.png", "beside/scan_of_mine.png"}) write(name, "x");
   ASSERT_EQ(credo("run data --out out --pictures beside --moments 1 --force").status, 0);
-  EXPECT_EQ(pictures("beside").size(), 8u);
+  EXPECT_EQ(pictures("beside").size(), 17u);
   ASSERT_EQ(credo("map data --out out --pictures beside --force").status, 0);
   EXPECT_EQ(pictures("beside"),
             (std::set<std::string>{"map.png", "map_conflict.png", "map_contested.png", "map_dsmp.png", "map_empty.png",
