@@ -19,6 +19,7 @@ void add_calibrate(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_plan(CLI::App& app);
 void add_cell(CLI::App& app);
+void add_export(CLI::App& app);
 void add_info(CLI::App& app);
 void add_reproduce(CLI::App& app);
 

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
     credo::apps::add_compare(app);
     credo::apps::add_plan(app);
     credo::apps::add_cell(app);
+    credo::apps::add_export(app);
     credo::apps::add_info(app);
     credo::apps::add_reproduce(app);
     app.parse(argc, argv);

@@ -18,6 +18,7 @@
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/map_extent.hpp"
+#include "apps/map_files_options.hpp"
 #include "apps/map_saturation.hpp"
 #include "apps/map_source.hpp"
 #include "apps/option_checks.hpp"
@@ -48,8 +49,7 @@ struct MapOptions {
   SonarChoice sonar;
   std::string rule;  ///< empty: the map that no order changes, of which most rules are read-outs
   std::string out, pictures;
-  std::string readout = "normalized";
-  datasets::MapMode map_mode = datasets::MapMode::kTrinary;
+  MapFilesOptions files;
   bool large = false;
   bool force = false;
   mapping::TrajectoryMappingParams params;
@@ -140,10 +140,7 @@ void check_overlap(const MapOptions& o, const std::vector<MapPart>& parts, const
 /// Whether the map is small enough for pictures, and was drawn.
 bool write_map_files(const MapOptions& o, const mapping::TrajectoryMap& made, std::span<const geometry::Pose2> way,
                      const fs::path& folder, const std::optional<PictureFolder>& pictures) {
-  const bool drawn = results::write_map_folder(
-      made.grid, folder,
-      {.mode = o.map_mode,
-       .channels = o.readout == "raw" ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized});
+  const bool drawn = results::write_map_folder(made.grid, folder, o.files.params());
   if (!drawn) warn_without_pictures(made.grid);
   if (pictures && drawn) results::write_map_pictures(pictures->path(), made.grid, way);
   return drawn;
@@ -151,15 +148,16 @@ bool write_map_files(const MapOptions& o, const mapping::TrajectoryMap& made, st
 
 bool write_map_files(const MapOptions& o, const mapping::RuleMap& made, std::span<const geometry::Pose2>,
                      const fs::path& folder, const std::optional<PictureFolder>& pictures) {
-  const bool trinary = o.map_mode == datasets::MapMode::kTrinary;
+  const bool trinary = o.files.mode == datasets::MapMode::kTrinary;
   datasets::write_map(trinary ? results::to_occupancy(made.map) : results::to_probabilities(made.map),
-                      folder / "map.yaml", o.map_mode);
+                      folder / "map.yaml", o.files.mode);
   results::write_belief_tiff(results::belief_image(made.map), folder / "map_belief.tiff");
   if (!made.history.empty()) results::write_cell_history(made.history, made.map.georeference, folder / "history.csv");
   if (!pictures) return true;
   const std::string title = std::string(mapping::name_of(o.params.mapper.sonar)) + " " + o.rule;
   results::write_png(pictures->path() / "map.png",
                      results::map_sheet(std::array{results::SheetMap{title, "", &made.map}}));
+  results::write_cell_history_pictures(made.history, made.map.box, pictures->path());
   return true;
 }
 
@@ -217,7 +215,7 @@ void require_meaning(const MapOptions& o) {
     throw std::runtime_error("--sonar-weights are of the model 'calibrated', not of '" + model +
                              "': add --model calibrated");
   if (o.rule.empty()) return;
-  if (o.readout == "raw")
+  if (o.files.raw())
     throw std::runtime_error(
         "--readout raw is of the map without --rule; by a rule the masses are written as they are");
   if (o.large)
@@ -303,17 +301,7 @@ void add_map(CLI::App& app) {
   command->add_option("--resolution", o->params.mapper.georeference.resolution_m, "side of a cell [m]")
       ->check(any_resolution())
       ->capture_default_str();
-  command
-      ->add_option("--readout", o->readout,
-                   "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
-      ->check(CLI::IsMember({"normalized", "raw"}))
-      ->capture_default_str();
-  command->add_option("--map-mode", o->map_mode, "what the grey of map.yaml says: trinary, scale (percent) or raw")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, datasets::MapMode>{{"trinary", datasets::MapMode::kTrinary},
-                                                                           {"scale", datasets::MapMode::kScale},
-                                                                           {"raw", datasets::MapMode::kRaw}}))
-      ->default_str("trinary");
+  add_map_files_options(*command, o->files);
   command->add_flag("--large", o->large, "allow a map that is too large for pictures: map.cgrid alone is written then");
   command->add_option("--pictures", o->pictures, "folder for pictures: the map, its layers and its relief")
       ->check(a_path());

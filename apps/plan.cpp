@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,7 @@
 
 #include "apps/about.hpp"
 #include "apps/commands.hpp"
+#include "apps/map_region.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "datasets/floor_plan_file.hpp"
@@ -55,23 +55,9 @@ geometry::FloorPlan plan_of_occupancy(const fs::path& yaml, const grids::WallPar
   return plan;
 }
 
-/// The tiles that a region touches; no others are read.
-grids::EvidentialGrid read_region(const datasets::GridFile& file, const std::vector<double>& region) {
-  const grids::CellIndex a = file.georeference().cell_at({region[0], region[1]});
-  const grids::CellIndex b = file.georeference().cell_at({region[2], region[3]});
-  const auto [low_x, high_x] = std::minmax(a.x, b.x);
-  const auto [low_y, high_y] = std::minmax(a.y, b.y);
-  return file.read(grids::CellBox{{low_x, low_y}, high_x - low_x + 1, high_y - low_y + 1});
-}
-
 geometry::FloorPlan plan_of(const PlanOptions& o) {
   const fs::path source = o.source;
-  if (!o.region.empty()) {
-    const fs::path file = fs::is_directory(source) ? source / "map.cgrid" : source;
-    if (file.extension() != ".cgrid" || !fs::exists(file))
-      throw std::runtime_error(o.source + ": only of a map.cgrid can a region be read, and there is none");
-    return grids::extract_walls(read_region(datasets::GridFile(file), o.region), o.params);
-  }
+  if (!o.region.empty()) return grids::extract_walls(read_map_region(o.source, o.region), o.params);
   if (fs::is_directory(source)) return grids::extract_walls(results::read_map_folder(source), o.params);
   if (source.extension() == ".yaml") return plan_of_occupancy(source, o.params);
   return grids::extract_walls(datasets::GridFile(source).read(), o.params);
@@ -113,10 +99,7 @@ void add_plan(CLI::App& app) {
   command->add_option("--bridge", o->params.bridged_m, "longest gap that is closed where nobody saw through [m]")
       ->check(number_in(0, 1000))
       ->capture_default_str();
-  command
-      ->add_option("--region", o->region, "X Y X Y of two corners: of a map.cgrid only the tiles that these touch [m]")
-      ->expected(4)
-      ->check(number_in(-1e6, 1e6));
+  add_region_option(*command, o->region);
   command->add_flag("-f,--force", o->force, "replace a floor plan that is already there");
   add_format_option(*command, o->format);
   command->callback([o] { execute(*o); });

@@ -175,4 +175,11 @@ std::string to_yaml(const mapping::TrajectoryMappingParams& params, const std::s
   return out;
 }
 
+std::string to_yaml(const std::string& version, const std::string& source, const std::vector<double>& region) {
+  std::string out = "# Where this map is from.\nformat: credo-results/1\n";
+  out += "credo: " + version + "\nmap: " + yaml_quoted(source) + "\n";
+  if (!region.empty()) out += fmt::format("region_m: [{:g}]\n", fmt::join(region, ", "));
+  return out;
+}
+
 }  // namespace credo::results

@@ -27,5 +27,9 @@ struct RunConfig {
 /// The same of a map that was made from given poses.
 [[nodiscard]] std::string to_yaml(const mapping::TrajectoryMappingParams& params, const std::string& version,
                                   const std::string& source, const std::string& poses);
+/// The same of a map that was taken from another one.
+/// \param region  two corners of what was taken [m]; empty: all of it
+[[nodiscard]] std::string to_yaml(const std::string& version, const std::string& source,
+                                  const std::vector<double>& region);
 
 }  // namespace credo::results

@@ -62,6 +62,29 @@ TEST_F(Command, AMapFileTellsWhatItHoldsAndIsReadInParts) {
               HasSubstr("only of a map.cgrid can a region be read"));
 }
 
+TEST_F(Command, ARegionOfAMapIsAMapOfItsOwn) {
+  write_small_world();
+  ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
+  ASSERT_EQ(credo("map data --out map").status, 0);
+  const json part =
+      json::parse(credo("export map --region 1 2.5 3 1 --map-mode scale --out part --pictures p --format json").out);
+  EXPECT_EQ(part["width"], 41);  // 2 m, and both edges
+  EXPECT_EQ(part["height"], 31);
+  EXPECT_THAT(read("part/map.yaml"), AllOf(HasSubstr("mode: scale"), HasSubstr("origin: [1")));
+  EXPECT_THAT(read("part/config.yaml"), HasSubstr("region_m: [1, 2.5, 3, 1]"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "p/map_relief.png"));
+  EXPECT_EQ(credo("cell part 2 2").out, credo("cell map 2 2").out);
+  EXPECT_EQ(credo("export map/map.cgrid --out whole").status, 0);
+  EXPECT_EQ(read("whole/map.cgrid"), read("map/map.cgrid"));
+  EXPECT_EQ(read("whole/map_belief.tiff"), read("map/map_belief.tiff"));
+
+  EXPECT_THAT(credo("export map --out whole").error, HasSubstr("--force"));
+  EXPECT_EQ(credo("export map --out whole --force").status, 0);
+  EXPECT_THAT(credo("export map --region 900 900 910 910 --out none").error, HasSubstr("nothing was seen"));
+  EXPECT_THAT(credo("export data --out none").error, HasSubstr("only of a map.cgrid"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
+}
+
 TEST_F(Command, AMapTellsItsWallsToo) {
   write_small_world();
   ASSERT_EQ(credo("simulate small.yaml --out data").status, 0);
