@@ -24,6 +24,15 @@ bool DempsterFold::update(Cell& cell, const GridMass& reading, sensors::Timestam
   return fused.has_value();
 }
 
+bool DempsterFloatFold::update(Cell& cell, const GridMass& reading, sensors::Timestamp /*time*/) const {
+  constexpr double kMost = evidence::FixedLogCommonality::kMaxReliability, kAll = 1.0 - 0x1p-53;
+  const double known = 1.0 - reading.unknown;
+  cell += evidence::log_commonality(reading, known > kMost ? kMost / known : kAll).as<float>();
+  return true;
+}
+
+GridMass DempsterFloatFold::masses(const Cell& cell) const { return evidence::normalised_masses(cell.as<double>()); }
+
 bool Pcr2Fold::update(Cell& cell, const GridMass& reading, sensors::Timestamp /*time*/) const {
   cell = evidence::pcr2(std::array{cell, reading}).mass;
   return true;

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "evidence/grid_mass.hpp"
+#include "evidence/log_commonality.hpp"
 #include "sensors/time.hpp"
 
 namespace credo::mapping {
@@ -41,6 +42,17 @@ struct DempsterFold {
 
   [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
   [[nodiscard]] evidence::GridMass masses(const Cell& cell) const { return cell; }
+};
+
+/// Dempster's rule as the sum that the map without an order is, in floats. Each reading leaves an ignorance of 1 % at
+/// least, as there. What floats lose: sums depend on their order in the last of 24 bits, so equal readings give equal
+/// maps only in equal order, and beside much evidence little is rounded away. What they gain: no end of the range.
+struct DempsterFloatFold {
+  using Cell = evidence::LogCommonalityF;
+  static constexpr bool kForgets = false;
+
+  [[nodiscard]] bool update(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time = 0) const;
+  [[nodiscard]] evidence::GridMass masses(const Cell& cell) const;
 };
 
 /// PCR2 (Li P., eq. (6)).
@@ -124,7 +136,7 @@ enum class ZhuState { kUnknown, kEmpty, kOccupied };
 /// Zhu, eq. (10): the larger of the two, if by more than e4, with an ignorance below e5 and below it.
 [[nodiscard]] ZhuState decide_zhu(const evidence::GridMass& mass, const ZhuDecisionParams& params = {});
 
-static_assert(CellRule<DsmcFold> && CellRule<DempsterFold> && CellRule<Pcr2Fold> && CellRule<Pcr5Fold> &&
-              CellRule<DsmhFold> && CellRule<BayesFold> && CellRule<ApproximatedDempsterFold>);
+static_assert(CellRule<DsmcFold> && CellRule<DempsterFold> && CellRule<DempsterFloatFold> && CellRule<Pcr2Fold> &&
+              CellRule<Pcr5Fold> && CellRule<DsmhFold> && CellRule<BayesFold> && CellRule<ApproximatedDempsterFold>);
 
 }  // namespace credo::mapping

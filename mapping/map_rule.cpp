@@ -21,6 +21,7 @@ const std::array kRules{
     NamedRule{"dsmc", ReadOut::kDsmc, "DSm classic rule (TBM), from the same map"},
     NamedRule{"bayes", ReadOut::kBayes, "a log-odds filter of plausibilities, from the same map"},
     NamedRule{"bayes_betp", BayesFold{}, "a log-odds filter of each reading's pignistic probability"},
+    NamedRule{"dempster_float", DempsterFloatFold{}, "Dempster's rule as a sum in floats, reading by reading"},
     NamedRule{"dempster_fold", DempsterFold{}, "Dempster's rule reading by reading, certain readings included"},
     NamedRule{"dsmc_fold", DsmcFold{}, "DSm classic rule reading by reading, in linear masses"},
     NamedRule{"pcr2", Pcr2Fold{}, "proportional conflict redistribution 2"},

@@ -17,8 +17,8 @@
 namespace credo::mapping {
 
 /// How cells take readings in: a read-out of the map that no order changes, or a fold.
-using MapRule = std::variant<grids::ReadOut, DsmcFold, DempsterFold, Pcr2Fold, Pcr5Fold, DsmhFold, BayesFold,
-                             ApproximatedDempsterFold, ChangingFold>;
+using MapRule = std::variant<grids::ReadOut, DsmcFold, DempsterFold, DempsterFloatFold, Pcr2Fold, Pcr5Fold, DsmhFold,
+                             BayesFold, ApproximatedDempsterFold, ChangingFold>;
 
 /// A rule with its name and what it is in a few words.
 struct NamedRule {
@@ -27,8 +27,8 @@ struct NamedRule {
   std::string_view what;
 };
 
-/// dempster, dsmc, bayes (read-outs of one map); dempster_fold, dsmc_fold, pcr2, pcr5, dsmh, bayes_betp, adaptive,
-/// fixed, changing.
+/// dempster, dsmc, bayes (read-outs of one map); dempster_float, dempster_fold, dsmc_fold, pcr2, pcr5, dsmh,
+/// bayes_betp, adaptive, fixed, changing.
 [[nodiscard]] std::span<const NamedRule> map_rules();
 /// \throws std::invalid_argument for another name
 [[nodiscard]] const NamedRule& map_rule(std::string_view name);

@@ -111,13 +111,15 @@ TEST_F(Command, AMapThatWouldOutgrowItsLimitIsRefusedBeforeTheWork) {
 
 TEST_F(Command, AnyModelWithAnyRule) {
   ASSERT_EQ(credo("simulate demo --out data").status, 0);
-  for (const char* with : {"--model zhu --rule adaptive", "--model lip --rule pcr2", "--model su --rule dempster_fold",
-                           "--model li2006 --printed --rule dsmc", "--rule changing --sensors range"}) {
+  for (const char* with :
+       {"--model zhu --rule adaptive", "--model lip --rule pcr2", "--model su --rule dempster_fold",
+        "--model li2006 --printed --rule dsmc", "--rule dempster_float", "--rule changing --sensors range"}) {
     const Answer answer = credo("map data --sensors sonar --force --out map --pictures p " + std::string(with));
     EXPECT_EQ(answer.status, 0) << with << ": " << answer.error;
     EXPECT_TRUE(fs::exists(folder_ / "map" / "map_belief.tiff")) << with;
     EXPECT_TRUE(fs::exists(folder_ / "p" / "map.png")) << with;
   }
+  for (const char* picture : {"map_since.png", "map_changes.png"}) EXPECT_TRUE(fs::exists(folder_ / "p" / picture));
   EXPECT_THAT(read("map/config.yaml"), AllOf(HasSubstr("\nrule: changing"), HasSubstr("model: li2007")));
   EXPECT_EQ(credo("map data --rule pcr7 --out none").status, 2);
   write("log", kLogWithSonar);

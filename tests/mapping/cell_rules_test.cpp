@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "evidence/log_commonality.hpp"
 
@@ -47,6 +50,57 @@ TEST(CellRules, DempsterInLinearMassesIsTheReadOutOfTheSum) {
   }
   EXPECT_NEAR(cell.occupied, evidence::normalised_masses(sum).occupied, 1e-5);
   EXPECT_NEAR(cell.empty, evidence::normalised_masses(sum).empty, 1e-5);
+}
+
+/// Readings of many strengths, for and against.
+std::vector<GridMass> mixed_readings() {
+  std::vector<GridMass> readings;
+  for (int i = 0; i < 500; ++i) {
+    const double known = 0.3 + 0.002 * (i * 37 % 200), share = 0.01 * (i * 61 % 100);
+    readings.push_back({known * share, known * (1.0 - share), 0.0, 1.0 - known});
+  }
+  return readings;
+}
+
+/// In the order that they are given in: the cell of floats, and that of fixed point.
+std::pair<evidence::LogCommonalityF, evidence::FixedLogCommonality> sums_of(const std::vector<GridMass>& readings) {
+  std::pair<evidence::LogCommonalityF, evidence::FixedLogCommonality> sums;
+  for (const GridMass& reading : readings) {
+    EXPECT_TRUE(DempsterFloatFold{}.update(sums.first, reading));
+    sums.second += evidence::quantise(evidence::log_commonality(reading, 1.0 - 0x1p-53));
+  }
+  return sums;
+}
+
+TEST(CellRules, FloatsLoseTheIndependenceOfTheOrderThatFixedPointHas) {
+  std::vector<GridMass> readings = mixed_readings();
+  const auto [narrow, fixed] = sums_of(readings);
+  std::ranges::reverse(readings);
+  const auto [narrow_reversed, fixed_reversed] = sums_of(readings);
+  EXPECT_EQ(fixed, fixed_reversed);
+  EXPECT_NE(narrow, narrow_reversed);
+  EXPECT_NEAR(narrow.unknown, narrow_reversed.unknown, 1e-6 * std::abs(narrow.unknown));
+  const GridMass of_floats = DempsterFloatFold{}.masses(narrow), of_fixed = evidence::normalised_masses(fixed.value());
+  EXPECT_NEAR(of_floats.occupied, of_fixed.occupied, 1e-4);
+  EXPECT_NEAR(of_floats.empty, of_fixed.empty, 1e-4);
+}
+
+TEST(CellRules, FloatsHaveNoFloorButLoseWeakReadingsBesideMuchEvidence) {
+  evidence::LogCommonalityF narrow;
+  evidence::FixedLogCommonality fixed;
+  const auto take_in = [&](const GridMass& reading) {
+    static_cast<void>(DempsterFloatFold{}.update(narrow, reading));
+    fixed += evidence::fixed_increment(reading, 1.0);
+  };
+  for (int i = 0; i < 300; ++i) take_in(kSurelyOccupied);
+  const auto narrow_before = narrow;
+  const auto fixed_before = fixed;
+  take_in({.empty = 2e-5, .occupied = 0.0, .conflict = 0.0, .unknown = 1.0 - 2e-5});
+  EXPECT_EQ(narrow.unknown, narrow_before.unknown);
+  EXPECT_LT(fixed.unknown, fixed_before.unknown);
+  for (int i = 0; i < 200; ++i) take_in(kSurelyOccupied);
+  EXPECT_TRUE(fixed.saturated());
+  EXPECT_NEAR(narrow.unknown, 500.0 * std::log(0.01), 0.1);
 }
 
 TEST(CellRules, ACertaintyIsNeverLeftUnderDempsterAndItsOppositeIsAbandoned) {

@@ -86,6 +86,25 @@ TEST(MapRule, AFoldOfDempsterAgreesWithTheSum) {
   EXPECT_GT(alike, 0.97 * cells);  // tables round angles and distances
 }
 
+/// Of the laser alone, whose evidence is the same in both: a sonar's comes from tables in the one.
+TEST(MapRule, FloatsDecideAsFixedPointDoes) {
+  Drive drive;
+  drive.sweeps.clear();
+  const grids::MassMap floats = drive.mapped(DempsterFloatFold{}).map,
+                       fixed = drive.mapped(grids::ReadOut::kDempster).map;
+  ASSERT_EQ(floats.box, fixed.box);
+  EXPECT_EQ(floats.seen, fixed.seen);
+  constexpr double kTolerance = 1e-3;
+  for (std::size_t i = 0; i < fixed.masses.size(); ++i) {
+    ASSERT_NEAR(floats.masses[i].occupied, fixed.masses[i].occupied, kTolerance);
+    ASSERT_NEAR(floats.masses[i].empty, fixed.masses[i].empty, kTolerance);
+    const bool clear = std::abs(fixed.masses[i].occupied - fixed.masses[i].empty) > 2.0 * kTolerance;
+    const bool alike =
+        (floats.masses[i].occupied > floats.masses[i].empty) == (fixed.masses[i].occupied > fixed.masses[i].empty);
+    ASSERT_TRUE(alike || !clear);
+  }
+}
+
 TEST(MapRule, FoldsTakeReadingsInByTimeHoweverTheyAreGiven) {
   const Drive drive;
   Drive reversed = drive;
