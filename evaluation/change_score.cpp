@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "evaluation/map_score.hpp"
+#include "evaluation/true_cells.hpp"
 #include "evidence/log_commonality.hpp"
 #include "mapping/sequential_mapper.hpp"
 
@@ -74,7 +74,7 @@ class Follower {
   }
 
   [[nodiscard]] ChangeScore score() {
-    for_each(truths_.front().box(), [&](CellIndex cell) {
+    for_each_cell(truths_.front().box(), [&](CellIndex cell) {
       const auto* seen = mapper_.grid().find(cell);
       if (seen == nullptr || seen->sweeps < 5 || !always_the_same(cell)) return;
       const State real = truths_.back().at(cell);
@@ -88,16 +88,10 @@ class Follower {
   }
 
  private:
-  template <typename Visit>
-  static void for_each(const CellBox& box, const Visit& visit) {
-    for (int y = box.min.y; y < box.min.y + box.height; ++y)
-      for (int x = box.min.x; x < box.min.x + box.width; ++x) visit(CellIndex{x, y});
-  }
-
   void change() {
     const TrueCells &before = truths_[now_], &after = truths_[now_ + 1];
     ++now_;
-    for_each(after.box(), [&](CellIndex cell) {
+    for_each_cell(after.box(), [&](CellIndex cell) {
       const State was = before.at(cell), is = after.at(cell);
       if (was == is) return;
       std::erase_if(watched_, [&](const Watched& other) { return other.cell == cell; });
@@ -134,10 +128,7 @@ class Follower {
       case State::kUnknown: return false;
     }
     if (truth.at(cell) == State::kEmpty) return true;
-    for (int dy = -kWallTolerance; dy <= kWallTolerance; ++dy)
-      for (int dx = -kWallTolerance; dx <= kWallTolerance; ++dx)
-        if (said({cell.x + dx, cell.y + dy}) == State::kOccupied) return true;
-    return false;
+    return any_within(cell, kWallTolerance, [&](CellIndex other) { return said(other) == State::kOccupied; });
   }
 
   [[nodiscard]] bool always_the_same(CellIndex cell) const {

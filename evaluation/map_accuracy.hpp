@@ -13,7 +13,8 @@
 
 namespace credo::evaluation {
 
-/// A map against the truth. A cell counts if it was observed at least once and the truth of its centre is known.
+/// A map against the truth, as a robot is given it: decisions and what is withheld, walls found (map_score compares
+/// rules instead). A cell counts if it was observed at least once and the truth of its centre is known.
 struct MapAccuracy {
   std::int64_t observed = 0;   ///< cells that count
   std::int64_t correct = 0;    ///< occupied iff m(occupied) > m(empty), as the truth, up to `tolerance_cells` at walls

@@ -7,35 +7,18 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
-
-#include "geometry/pose.hpp"
-
-#include "geometry/pose.hpp"
 
 namespace credo::evaluation {
 namespace {
 
-using grids::CellBox;
 using grids::CellIndex;
 using State = TrueCells::State;
 
 constexpr double kFarthest_m = 0.5;
 
-TrueCells::State state_of(std::int8_t cell) {
-  if (cell < 0) return State::kUnknown;
-  return cell >= 50 ? State::kOccupied : State::kEmpty;
-}
-
 State said(const evidence::GridMass& mass) {
   if (mass.occupied == mass.empty) return State::kUnknown;
   return mass.occupied > mass.empty ? State::kOccupied : State::kEmpty;
-}
-
-template <typename Visit>
-void for_each(const CellBox& box, Visit visit) {
-  for (int y = box.min.y; y < box.min.y + box.height; ++y)
-    for (int x = box.min.x; x < box.min.x + box.width; ++x) visit(CellIndex{x, y});
 }
 
 /// Distance to the nearest cell within kFarthest_m for which holds(cell); kFarthest_m without one.
@@ -64,16 +47,6 @@ struct Mean {
   }
 };
 
-/// \throws std::length_error beyond TrueCells::kMostCells
-std::size_t count_of(const CellBox& box, double resolution_m) {
-  const auto count = static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height);
-  if (count <= TrueCells::kMostCells) return count;
-  throw std::length_error("the true map is compared over " + std::to_string(std::lround(resolution_m * box.width)) +
-                          " m x " + std::to_string(std::lround(resolution_m * box.height)) + " m, " +
-                          std::to_string(count) + " cells; expected at most " + std::to_string(TrueCells::kMostCells) +
-                          ": is the resolution in its .yaml file right, in metres per pixel?");
-}
-
 bool counts(const TrueCells& truth, CellIndex cell) {
   switch (truth.at(cell)) {
     case State::kEmpty: return true;
@@ -90,57 +63,14 @@ bool is_right(State says, State real, bool wall_near, bool says_wall_near) {
 
 }  // namespace
 
-CellBox box_of(const datasets::OccupancyMap& truth, const grids::Georeference& georeference) {
-  const geometry::Pose2 T_map_truth{truth.origin_x_m, truth.origin_y_m, truth.origin_yaw_rad};
-  CellBox box;
-  for (const int x : {0, truth.width})
-    for (const int y : {0, truth.height})
-      box = box.united(
-          {georeference.cell_at(T_map_truth * Eigen::Vector2d(truth.resolution_m * x, truth.resolution_m * y)), 1, 1});
-  return box;
-}
-
-TrueCells::TrueCells(const datasets::OccupancyMap& truth, const grids::Georeference& georeference, const CellBox& box)
-    : box_(box), states_(count_of(box, georeference.resolution_m), State::kUnknown) {
-  const geometry::Pose2 T_map_truth{truth.origin_x_m, truth.origin_y_m, truth.origin_yaw_rad};
-  const geometry::Pose2 T_truth_map = T_map_truth.inverse();
-  for_each(box, [&](CellIndex cell) {
-    const Eigen::Vector2d p = (T_truth_map * georeference.centre(cell)) / truth.resolution_m;
-    const double column = std::floor(p.x()), row = std::floor(p.y());
-    if (column < 0.0 || row < 0.0 || column >= truth.width || row >= truth.height) return;
-    states_[place(cell)] = state_of(truth.at(static_cast<int>(column), static_cast<int>(row)));
-  });
-  for (int row = 0; row < truth.height; ++row)
-    for (int column = 0; column < truth.width; ++column) {
-      if (state_of(truth.at(column, row)) != State::kOccupied) continue;
-      const Eigen::Vector2d centre(truth.resolution_m * (column + 0.5), truth.resolution_m * (row + 0.5));
-      const CellIndex cell = georeference.cell_at(T_map_truth * centre);
-      if (box_.contains(cell)) states_[place(cell)] = State::kOccupied;
-    }
-}
-
-bool TrueCells::near(CellIndex cell, State state, int within) const {
-  for (int dy = -within; dy <= within; ++dy)
-    for (int dx = -within; dx <= within; ++dx)
-      if (at({cell.x + dx, cell.y + dy}) == state) return true;
-  return false;
-}
-
 MapScore map_score(const grids::MassMap& map, const datasets::OccupancyMap& truth) {
   const int margin = kWallTolerance + static_cast<int>(std::ceil(kFarthest_m / map.georeference.resolution_m));
-  const TrueCells real(
-      truth, map.georeference,
-      {{map.box.min.x - margin, map.box.min.y - margin}, map.box.width + 2 * margin, map.box.height + 2 * margin});
+  const TrueCells real(truth, map.georeference, widened(map.box, margin));
   const auto says_wall = [&](CellIndex cell) { return map.saw(cell) && said(map.at(cell)) == State::kOccupied; };
-  const auto says_wall_near = [&](CellIndex cell) {
-    for (int dy = -kWallTolerance; dy <= kWallTolerance; ++dy)
-      for (int dx = -kWallTolerance; dx <= kWallTolerance; ++dx)
-        if (says_wall({cell.x + dx, cell.y + dy})) return true;
-    return false;
-  };
+  const auto says_wall_near = [&](CellIndex cell) { return any_within(cell, kWallTolerance, says_wall); };
   MapScore score;
   Mean brier, log_loss, conflict, ignorance, contour, missed;
-  for_each(map.box, [&](CellIndex cell) {
+  for_each_cell(map.box, [&](CellIndex cell) {
     if (!map.saw(cell) || !counts(real, cell)) return;
     ++score.cells;
     const evidence::GridMass mass = map.at(cell);

@@ -4,47 +4,18 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "datasets/map_server.hpp"
+#include "evaluation/true_cells.hpp"
 #include "grids/mass_map.hpp"
 
 namespace credo::evaluation {
 
-/// Cells that a wall may be off, diagonals included, and still be right.
-inline constexpr int kWallTolerance = 1;
-
-/// All cells of a true map, turned or not.
-[[nodiscard]] grids::CellBox box_of(const datasets::OccupancyMap& truth, const grids::Georeference& georeference);
-
-/// The states of the true cells under a map, at its resolution.
-class TrueCells {
- public:
-  enum class State : std::uint8_t { kUnknown, kEmpty, kOccupied };
-  static constexpr std::size_t kMostCells = std::size_t{1} << 26;  ///< a square of 400 m with cells of 5 cm
-
-  /// \param truth  of any resolution and origin, turned or not. A cell is what its centre is in truth, and a wall where
-  ///               a true wall cell's centre lies in it.
-  TrueCells(const datasets::OccupancyMap& truth, const grids::Georeference& georeference, const grids::CellBox& box);
-
-  [[nodiscard]] State at(grids::CellIndex cell) const { return box_.contains(cell) ? states_[place(cell)] : State{}; }
-  /// Whether a cell within so many, diagonals included, is in a state.
-  [[nodiscard]] bool near(grids::CellIndex cell, State state, int within) const;
-  [[nodiscard]] const grids::CellBox& box() const { return box_; }
-
- private:
-  [[nodiscard]] std::size_t place(grids::CellIndex cell) const {
-    return static_cast<std::size_t>(cell.y - box_.min.y) * static_cast<std::size_t>(box_.width) +
-           static_cast<std::size_t>(cell.x - box_.min.x);
-  }
-
-  grids::CellBox box_;
-  std::vector<State> states_;
-};
-
-/// A map of any rule against the truth. Cells count that were seen and whose truth is known, but for those more than
-/// one cell inside of a solid. Decided is a cell with m(occupied) != m(empty), and right if it says occupied within one
-/// cell of a true wall, or empty where it is empty in truth or the map says occupied within one cell.
+/// A map of any rule against the truth, so that rules can be compared. Unlike map_accuracy, which judges the map that a
+/// robot is given, it leaves out what is deep inside of solids, where no rule can be right. Cells count that were seen
+/// and whose truth is known, but for those more than one cell inside of a solid. Decided is a cell with m(occupied) !=
+/// m(empty), and right if it says occupied within one cell of a true wall, or empty where it is empty in truth or the
+/// map says occupied within one cell.
 struct MapScore {
   std::int64_t cells = 0;    ///< that count
   std::int64_t decided = 0;  ///< of them

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "evaluation/map_score.hpp"
+#include "evaluation/true_cells.hpp"
 #include "evidence/parameter_check.hpp"
 #include "mapping/fan.hpp"
 #include "mapping/sonar_calibrated.hpp"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "evaluation/map_score.hpp"
+#include "evaluation/true_cells.hpp"
 
 namespace credo::evaluation {
 namespace {
@@ -30,10 +30,7 @@ class Mask {
   [[nodiscard]] bool at(CellIndex cell) const { return box_.contains(cell) && yes_[place(cell)]; }
   void clear(CellIndex cell) { yes_[place(cell)] = false; }
   [[nodiscard]] bool near(CellIndex cell, int within) const {
-    for (int dy = -within; dy <= within; ++dy)
-      for (int dx = -within; dx <= within; ++dx)
-        if (at({cell.x + dx, cell.y + dy})) return true;
-    return false;
+    return any_within(cell, within, [&](CellIndex other) { return at(other); });
   }
 
  private:
@@ -45,10 +42,6 @@ class Mask {
   CellBox box_;
   std::vector<bool> yes_;
 };
-
-CellBox grown(const CellBox& box, int by) {
-  return {{box.min.x - by, box.min.y - by}, box.width + 2 * by, box.height + 2 * by};
-}
 
 enum class Neighbours { kSides, kSidesAndCorners };
 
@@ -90,7 +83,7 @@ bool on_rim(CellIndex cell, const CellBox& box) {
 
 /// Whether a blockage parts what is free around it.
 bool parts(std::vector<CellIndex> blockage, const Mask& free, const WallContinuityParams& params) {
-  const CellBox window = grown(box_of(blockage), params.around_cells);
+  const CellBox window = widened(box_of(blockage), params.around_cells);
   std::sort(blockage.begin(), blockage.end());
   const Mask is_blockage(window, [&](CellIndex c) { return std::binary_search(blockage.begin(), blockage.end(), c); });
   const Mask around(window, [&](CellIndex cell) { return free.at(cell) && !is_blockage.at(cell); });
@@ -108,7 +101,7 @@ bool parts(std::vector<CellIndex> blockage, const Mask& free, const WallContinui
 WallContinuity wall_continuity(const grids::MassMap& map, const datasets::OccupancyMap& truth,
                                const WallContinuityParams& params) {
   const int tolerance = params.tolerance_cells;
-  const CellBox box = grown(map.box, tolerance + params.around_cells);
+  const CellBox box = widened(map.box, tolerance + params.around_cells);
   const TrueCells real(truth, map.georeference, box);
   const Mask seen(map.box, [&](CellIndex cell) { return map.saw(cell); });
   const Mask wall(map.box, [&](CellIndex cell) { return map.saw(cell) && map.at(cell).occupied > map.at(cell).empty; });
