@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "mapping/raw_mass.hpp"
 
@@ -43,12 +44,6 @@ GridMass raw_li2006(double rho, double R, const SonarRing& ring, double eps, dou
   if (near) raw.occupied = occupied_profile(rho - R, rho_v) * lambda;
   if (rho >= R) raw.unknown = std::tanh(2.0 * (rho - R)) * lambda;  // eq. (8)
   return raw;
-}
-
-void check_li(const ParameterCheck& check, double epsilon_m, double rho_v_per_m2, double reliability) {
-  check.positive("epsilon_m", epsilon_m);
-  check.positive("rho_v_per_m2", rho_v_per_m2);
-  check.share("reliability", reliability);
 }
 
 }  // namespace
@@ -93,46 +88,57 @@ GridMass sonar_lip(double d, double theta_rad, double R, const SonarRing& ring, 
   return p.variant == Variant::kResolved ? completed(raw) : divided(raw);
 }
 
-Li2006Sonar::Li2006Sonar(const SonarRing& ring, const Li2006SonarParams& params)
-    : ring_(ring), params_(params), no_echo_(ring, params.no_echo) {
-  check_ring(ring);
-  check_li(ParameterCheck("sonar model: "), params.epsilon_m, params.rho_v_per_m2, params.reliability);
-}
+namespace {
 
-GridMass Li2006Sonar::mass(double rho_m, double theta_rad, double reading_m) const {
-  return sonar_li2006(rho_m, theta_rad, reading_m, ring_, params_.epsilon_m, params_.rho_v_per_m2, params_.variant);
-}
-
-double Li2006Sonar::reach(double reading_m) const { return std::min(reading_m + params_.epsilon_m, ring_.range_max_m); }
-
-Li2007::Li2007(const SonarRing& ring, const Li2007Params& params)
-    : ring_(ring), params_(params), no_echo_(ring, params.no_echo) {
-  check_ring(ring);
-  check_li(ParameterCheck("sonar model: "), params.epsilon_m, params.rho_v_per_m2, params.reliability);
-}
-
-GridMass Li2007::mass(double rho_m, double theta_rad, double reading_m) const {
-  return sonar_li2007(rho_m, theta_rad, reading_m, ring_, params_.epsilon_m, params_.rho_v_per_m2, params_.variant);
-}
-
-double Li2007::reach(double reading_m) const { return reading_m + 2.0 * params_.epsilon_m; }
-
-LiPSonar::LiPSonar(const SonarRing& ring, const LiPParams& params)
-    : ring_(ring), params_(params), no_echo_(ring, params.no_echo) {
-  check_ring(ring);
+template <typename Params>
+void check_params(const Params& params) {
   const ParameterCheck check("sonar model: ");
   check.positive("epsilon_m", params.epsilon_m);
-  check.positive("rho_e", params.rho_e);
-  check.positive("rho_o", params.rho_o);
-  check.positive("rho_c", params.rho_c);
-  check.positive("rho_i", params.rho_i);
   check.share("reliability", params.reliability);
+  if constexpr (std::is_same_v<Params, LiPParams>) {
+    check.positive("rho_e", params.rho_e);
+    check.positive("rho_o", params.rho_o);
+    check.positive("rho_c", params.rho_c);
+    check.positive("rho_i", params.rho_i);
+  } else {
+    check.positive("rho_v_per_m2", params.rho_v_per_m2);
+  }
 }
 
-GridMass LiPSonar::mass(double rho_m, double theta_rad, double reading_m) const {
-  return sonar_lip(rho_m, theta_rad, reading_m, ring_, params_);
+GridMass mass_by(const Li2006SonarParams& p, double rho_m, double theta_rad, double reading_m, const SonarRing& ring) {
+  return sonar_li2006(rho_m, theta_rad, reading_m, ring, p.epsilon_m, p.rho_v_per_m2, p.variant);
+}
+GridMass mass_by(const Li2007Params& p, double rho_m, double theta_rad, double reading_m, const SonarRing& ring) {
+  return sonar_li2007(rho_m, theta_rad, reading_m, ring, p.epsilon_m, p.rho_v_per_m2, p.variant);
+}
+GridMass mass_by(const LiPParams& p, double rho_m, double theta_rad, double reading_m, const SonarRing& ring) {
+  return sonar_lip(rho_m, theta_rad, reading_m, ring, p);
 }
 
-double LiPSonar::reach(double reading_m) const { return reading_m + 2.0 * params_.epsilon_m; }
+}  // namespace
+
+template <typename Params>
+FormulaSonar<Params>::FormulaSonar(const SonarRing& ring, const Params& params)
+    : ring_(ring), params_(params), no_echo_(ring, params.no_echo) {
+  check_ring(ring);
+  check_params(params);
+}
+
+template <typename Params>
+GridMass FormulaSonar<Params>::mass(double rho_m, double theta_rad, double reading_m) const {
+  return mass_by(params_, rho_m, theta_rad, reading_m, ring_);
+}
+
+template <typename Params>
+double FormulaSonar<Params>::reach(double reading_m) const {
+  if constexpr (std::is_same_v<Params, Li2006SonarParams>)
+    return std::min(reading_m + params_.epsilon_m, ring_.range_max_m);
+  else
+    return reading_m + 2.0 * params_.epsilon_m;
+}
+
+template class FormulaSonar<Li2006SonarParams>;
+template class FormulaSonar<Li2007Params>;
+template class FormulaSonar<LiPParams>;
 
 }  // namespace credo::mapping

@@ -53,11 +53,12 @@ struct LiPParams {
 [[nodiscard]] evidence::GridMass sonar_lip(double rho_m, double theta_rad, double reading_m,
                                            const sensors::SonarRing& ring, const LiPParams& params);
 
-/// Sonar of Li X. 2006.
-class Li2006Sonar {
+/// A sonar that one of the formulas above is the model of.
+template <typename Params>
+class FormulaSonar {
  public:
   /// \throws std::invalid_argument if a parameter is out of its range, or the ring cannot be mapped (check_ring).
-  Li2006Sonar(const sensors::SonarRing& ring, const Li2006SonarParams& params = {});
+  FormulaSonar(const sensors::SonarRing& ring, const Params& params = {});
 
   [[nodiscard]] evidence::GridMass mass(double rho_m, double theta_rad, double reading_m) const;
   [[nodiscard]] double reliability() const { return params_.reliability; }
@@ -66,45 +67,13 @@ class Li2006Sonar {
 
  private:
   sensors::SonarRing ring_;
-  Li2006SonarParams params_;
+  Params params_;
   NoEcho no_echo_;
 };
-static_assert(SonarModel<Li2006Sonar>);
 
-/// Sonar of Li X. 2007.
-class Li2007 {
- public:
-  /// \throws std::invalid_argument as Li2006Sonar.
-  Li2007(const sensors::SonarRing& ring, const Li2007Params& params = {});
-
-  [[nodiscard]] evidence::GridMass mass(double rho_m, double theta_rad, double reading_m) const;
-  [[nodiscard]] double reliability() const { return params_.reliability; }
-  [[nodiscard]] double reach(double reading_m) const;
-  [[nodiscard]] const NoEcho& no_echo() const { return no_echo_; }
-
- private:
-  sensors::SonarRing ring_;
-  Li2007Params params_;
-  NoEcho no_echo_;
-};
-static_assert(SonarModel<Li2007>);
-
-/// Sonar of Li P.
-class LiPSonar {
- public:
-  /// \throws std::invalid_argument as Li2006Sonar.
-  LiPSonar(const sensors::SonarRing& ring, const LiPParams& params = {});
-
-  [[nodiscard]] evidence::GridMass mass(double rho_m, double theta_rad, double reading_m) const;
-  [[nodiscard]] double reliability() const { return params_.reliability; }
-  [[nodiscard]] double reach(double reading_m) const;
-  [[nodiscard]] const NoEcho& no_echo() const { return no_echo_; }
-
- private:
-  sensors::SonarRing ring_;
-  LiPParams params_;
-  NoEcho no_echo_;
-};
-static_assert(SonarModel<LiPSonar>);
+using Li2006Sonar = FormulaSonar<Li2006SonarParams>;
+using Li2007 = FormulaSonar<Li2007Params>;
+using LiPSonar = FormulaSonar<LiPParams>;
+static_assert(SonarModel<Li2006Sonar> && SonarModel<Li2007> && SonarModel<LiPSonar>);
 
 }  // namespace credo::mapping
