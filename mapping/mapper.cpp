@@ -32,14 +32,6 @@ void check_share(double share) {
     throw std::invalid_argument("the share of a reading that is new must be in (0, 1], not " + std::to_string(share));
 }
 
-/// Of the ranges that can be mapped; 0 where there is none. [m]
-double farthest(std::span<const float> ranges_m, double range_max_m) {
-  double result = 0.0;
-  for (const float range_m : ranges_m)
-    if (range_m <= range_max_m) result = std::max(result, static_cast<double>(range_m));
-  return result;
-}
-
 }  // namespace
 
 struct Mapper::State {
@@ -58,22 +50,14 @@ struct Mapper::State {
   template <typename Paint>
   MappingCounts map(const Believed<PoseEstimate>& T_map_base, std::span<const float> ranges_m, double range_max_m,
                     const Paint& paint) {
-    require_usable(T_map_base.value);
-    if (T_map_base.value.covariance.isZero(0.0)) return paint(grid, T_map_base);
-    const auto poses =
-        poses_for_blur(T_map_base, farthest(ranges_m, range_max_m), params.georeference.resolution_m, params.blur);
+    const auto poses = poses_for_blur(T_map_base, ranges_m, range_max_m, params.georeference.resolution_m, params.blur);
     if (poses.empty()) return paint(grid, T_map_base);
-    EvidenceMean mean;
-    MappingCounts seen;
-    for (const Believed<PoseEstimate>& pose : poses) {
-      EvidentialGrid from_here(params.georeference);
-      pending.settle(grid);
-      seen = paint(from_here, pose);
+    pending.settle(grid);
+    return paint_mean(grid, poses, [&](EvidentialGrid& from_here, const Believed<PoseEstimate>& pose) {
+      const MappingCounts seen = paint(from_here, pose);
       pending.settle(from_here);
-      mean.add(from_here);
-    }
-    mean.combine_into(grid);
-    return seen;
+      return seen;
+    });
   }
 };
 
@@ -133,13 +117,8 @@ void Mapper::insert(const Believed<PoseEstimate>& T_map_base, const sensors::Ran
   const auto paint = [&](EvidentialGrid& grid, const Believed<PoseEstimate>& pose) {
     const PoseReliability reliability(pose, s.params.georeference.resolution_m, s.params.pose, trust);
     if (reliability.maps_nothing()) return MappingCounts{.scans = 1, .refused = 1};
-    const ScanBeams::Counts seen =
-        s.scans[finder].paint(grid, s.pending, pose.value.pose, reliability, scan.ranges_m, path, scan.time);
-    return MappingCounts{.scans = 1,
-                         .echoes = seen.echoes,
-                         .no_returns = seen.no_returns,
-                         .missing = seen.missing,
-                         .out_of_range = seen.out_of_range};
+    return counts_of(
+        s.scans[finder].paint(grid, s.pending, pose.value.pose, reliability, scan.ranges_m, path, scan.time));
   };
   s.counts += s.map(T_map_base, scan.ranges_m, finders[finder].range_max_m, paint);
 }

@@ -11,6 +11,7 @@
 
 #include "geometry/angles.hpp"
 #include "geometry/principal_axes.hpp"
+#include "mapping/pose_reliability.hpp"
 
 namespace credo::mapping {
 namespace {
@@ -66,6 +67,14 @@ std::vector<Eigen::Vector3d> normal_points(int pairs) {
   return points;
 }
 
+/// Of the ranges that can be mapped; 0 where there is none. [m]
+double farthest(std::span<const float> ranges_m, double range_max_m) {
+  double result = 0.0;
+  for (const float range_m : ranges_m)
+    if (range_m <= range_max_m) result = std::max(result, static_cast<double>(range_m));
+  return result;
+}
+
 void add_channel(std::vector<double>& sums, std::span<const std::int32_t> channel) {
   // Neighbours often say the same: their exponential is kept.
   std::int32_t last = 0;
@@ -82,11 +91,15 @@ void add_channel(std::vector<double>& sums, std::span<const std::int32_t> channe
 
 }  // namespace
 
-std::vector<Believed<PoseEstimate>> poses_for_blur(const Believed<PoseEstimate>& T_map_base, double farthest_m,
+std::vector<Believed<PoseEstimate>> poses_for_blur(const Believed<PoseEstimate>& T_map_base,
+                                                   std::span<const float> ranges_m, double range_max_m,
                                                    double resolution_m, const PoseBlurParams& params) {
+  require_usable(T_map_base.value);
   if (!(params.from_cells > 0.0 && params.most_cells > 0.0 && std::isfinite(params.most_cells)))
     throw std::invalid_argument("from_cells and most_cells of the blur must be above 0, and most_cells finite");
   const auto& [pose, covariance] = T_map_base.value;
+  if (covariance.isZero(0.0)) return {};
+  const double farthest_m = farthest(ranges_m, range_max_m);
   const double variance_m2 =
       geometry::largest_variance(covariance.topLeftCorner<2, 2>()) + covariance(2, 2) * farthest_m * farthest_m;
   const double spread_cells = std::sqrt(variance_m2) / resolution_m;

@@ -15,6 +15,14 @@ int hit_class(int level) { return level > 0 ? kLevels + level - 1 : RegionFiller
 
 }  // namespace
 
+MappingCounts counts_of(const ScanBeams::Counts& seen) {
+  return {.scans = 1,
+          .echoes = seen.echoes,
+          .no_returns = seen.no_returns,
+          .missing = seen.missing,
+          .out_of_range = seen.out_of_range};
+}
+
 ScanPainter::ScanPainter(const sensors::RangeFinder& range_finder, const grids::Georeference& georeference,
                          LaserTables tables, const ScanParams& params)
     : beams_(range_finder, georeference, std::move(tables), params) {

@@ -7,10 +7,14 @@
 
 #include "grids/evidential_grid.hpp"
 #include "mapping/pending_regions.hpp"
+#include "mapping/placed_sweep.hpp"
 #include "mapping/region_filler.hpp"
 #include "mapping/scan_beams.hpp"
 
 namespace credo::mapping {
+
+/// Of one scan.
+[[nodiscard]] MappingCounts counts_of(const ScanBeams::Counts& seen);
 
 /// Spreads the scans of one range finder over a grid. Keeps tables and working memory between scans.
 class ScanPainter {

@@ -43,8 +43,9 @@ void for_each_mass(const grids::Georeference& georeference, const sensors::Sonar
 }
 
 /// The same readings as `Mapper` into cells of any rule, one after the other. Slower: each cell asks the sensor model
-/// itself, so that masses without ignorance stay what they are. An unsure pose discounts and does not blur. Readings of
-/// a robot at rest count less and less (Freshness), unless the rule forgets; so they are to be given by time.
+/// itself, so that masses without ignorance stay what they are. An unsure pose blurs each reading of a transducer and
+/// each scan: the mean over the poses that may be. Readings of a robot at rest count less and less (Freshness), unless
+/// the rule forgets; so they are to be given by time.
 template <CellRule Rule>
 class SequentialMapper {
  public:
@@ -67,41 +68,61 @@ class SequentialMapper {
   /// \throws as Mapper::insert
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::SonarSweep& sweep,
               const sensors::MotionPath& path = {}) {
-    const auto& rings = rig_.sonar_rings;
     const auto ring = static_cast<std::size_t>(sweep.sensor);
-    const bool there = sweep.sensor >= 0 && ring < rings.size();
-    place_sweep(rig_, params_.georeference, params_.pose, T_map_base, sweep, path, counts_, placed_,
-                there ? std::span<const double>(reliability_.of_ring(ring)) : std::span<const double>{},
-                share_of(sweep, T_map_base));
-    for (const PlacedReading& reading : placed_)
-      for_each_mass(params_.georeference, rig_.sonar_rings[static_cast<std::size_t>(sweep.sensor)],
-                    sonars_[static_cast<std::size_t>(sweep.sensor)], reading,
+    const bool there = sweep.sensor >= 0 && ring < rig_.sonar_rings.size();
+    require_sensor(rig_.sonar_rings.size(), sweep.sensor, sweep.ranges_m.size(),
+                   there ? rig_.sonar_rings[ring].T_base_transducer.size() : 0, "sonar ring");
+    const double share = share_of(sweep, T_map_base);
+    // Calls take(transducer, cell, mass).
+    const auto spread = [&](const evidence::Believed<geometry::PoseEstimate>& pose, const auto& take) {
+      MappingCounts counts;
+      place_sweep(rig_, params_.georeference, params_.pose, pose, sweep, path, counts, placed_,
+                  reliability_.of_ring(ring), share);
+      for (const PlacedReading& reading : placed_)
+        for_each_mass(params_.georeference, rig_.sonar_rings[ring], sonars_[ring], reading,
+                      [&](grids::CellIndex cell, const evidence::GridMass& mass) {
+                        take(static_cast<std::size_t>(reading.transducer), cell, mass);
+                      });
+      return counts;
+    };
+    const auto poses = blurred(T_map_base, sweep.ranges_m, rig_.sonar_rings[ring].range_max_m);
+    if (poses.empty()) {
+      counts_ += spread(T_map_base, [&](std::size_t, grids::CellIndex cell, const evidence::GridMass& mass) {
+        take_in(cell, mass, sweep.time);
+      });
+      return;
+    }
+    std::vector<MassMean> means(sweep.ranges_m.size(), MassMean(params_.georeference));
+    MappingCounts counts;
+    for (const auto& pose : poses)
+      counts = spread(pose, [&](std::size_t transducer, grids::CellIndex cell, const evidence::GridMass& mass) {
+        means[transducer].add(cell, mass);
+      });
+    counts_ += counts;
+    for (const MassMean& mean : means)
+      mean.for_each(poses.size(),
                     [&](grids::CellIndex cell, const evidence::GridMass& mass) { take_in(cell, mass, sweep.time); });
   }
 
   /// A scan's evidence is that of `Mapper` on an empty map: each cell takes it in once.
   void insert(const evidence::Believed<geometry::PoseEstimate>& T_map_base, const sensors::RangeScan& scan,
               const sensors::MotionPath& path = {}) {
-    const auto& finders = rig_.range_finders;
-    const bool there = scan.sensor >= 0 && static_cast<std::size_t>(scan.sensor) < finders.size();
-    require_sensor(finders.size(), scan.sensor, scan.ranges_m.size(),
-                   there ? static_cast<std::size_t>(finders[static_cast<std::size_t>(scan.sensor)].count) : 0,
-                   "range finder");
-    const double trust = share_of(scan, T_map_base) * reliability_.of_finder(static_cast<std::size_t>(scan.sensor));
-    const PoseReliability reliability(T_map_base, params_.georeference.resolution_m, params_.pose, trust);
-    ++counts_.scans;
-    if (reliability.maps_nothing()) {
-      ++counts_.refused;
-      return;
-    }
+    const auto finder = static_cast<std::size_t>(scan.sensor);
+    const bool there = scan.sensor >= 0 && finder < rig_.range_finders.size();
+    require_sensor(rig_.range_finders.size(), scan.sensor, scan.ranges_m.size(),
+                   there ? static_cast<std::size_t>(rig_.range_finders[finder].count) : 0, "range finder");
+    const double trust = share_of(scan, T_map_base) * reliability_.of_finder(finder);
+    const auto paint = [&](grids::EvidentialGrid& grid, const evidence::Believed<geometry::PoseEstimate>& pose) {
+      const PoseReliability reliability(pose, params_.georeference.resolution_m, params_.pose, trust);
+      if (reliability.maps_nothing()) return MappingCounts{.scans = 1, .refused = 1};
+      const MappingCounts counts =
+          counts_of(scans_[finder].paint(grid, pending_, pose.value.pose, reliability, scan.ranges_m, path, scan.time));
+      pending_.settle(grid);
+      return counts;
+    };
     grids::EvidentialGrid one(params_.georeference);
-    const ScanBeams::Counts counts = scans_[static_cast<std::size_t>(scan.sensor)].paint(
-        one, pending_, T_map_base.value.pose, reliability, scan.ranges_m, path, scan.time);
-    counts_.echoes += counts.echoes;
-    counts_.no_returns += counts.no_returns;
-    counts_.missing += counts.missing;
-    counts_.out_of_range += counts.out_of_range;
-    pending_.settle(one);
+    const auto poses = blurred(T_map_base, scan.ranges_m, rig_.range_finders[finder].range_max_m);
+    counts_ += poses.empty() ? paint(one, T_map_base) : paint_mean(one, poses, paint);
     fold(one, scan.time);
   }
 
@@ -117,6 +138,12 @@ class SequentialMapper {
   template <typename Reading>
   [[nodiscard]] double share_of(const Reading& reading, const evidence::Believed<geometry::PoseEstimate>& T_map_base) {
     return Rule::kForgets ? 1.0 : freshness_.of_next(reading, T_map_base.value.pose);
+  }
+
+  [[nodiscard]] std::vector<evidence::Believed<geometry::PoseEstimate>> blurred(
+      const evidence::Believed<geometry::PoseEstimate>& T_map_base, std::span<const float> ranges_m,
+      double range_max_m) const {
+    return poses_for_blur(T_map_base, ranges_m, range_max_m, params_.georeference.resolution_m, params_.blur);
   }
 
   void take_in(grids::CellIndex cell, const evidence::GridMass& mass, sensors::Timestamp time) {

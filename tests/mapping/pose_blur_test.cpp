@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <numeric>
 
+#include "evidence/log_commonality.hpp"
+#include "mapping/sequential_mapper.hpp"
 #include "tests/mapping/readings.hpp"
 
 namespace credo::mapping {
@@ -16,6 +19,11 @@ namespace {
 using namespace test;  // NOLINT: the helpers of these tests
 
 constexpr double kResolution = 0.05;
+
+std::vector<Believed<PoseEstimate>> poses_of(const Believed<PoseEstimate>& pose, float farthest_m,
+                                             const PoseBlurParams& params = {}) {
+  return poses_for_blur(pose, std::array{farthest_m, 99.0F, kNan}, 8.0, kResolution, params);
+}
 
 /// The map of one scan of a room of 6 m x 3 m.
 grids::EvidentialGrid map_of_room(const Believed<PoseEstimate>& from, const PoseBlurParams& blur = {}) {
@@ -42,7 +50,7 @@ TEST(PoseBlur, ASurePoseNeedsNoOtherAndMapsAsEver) {
   const PoseBlurParams never{.from_cells = std::numeric_limits<double>::infinity()};
   for (const double sigma_m : {0.0, 0.002, 0.01}) {
     const auto pose = with_sigma(kPose, sigma_m, 0.1 * sigma_m);
-    EXPECT_TRUE(poses_for_blur(pose, 6.0, kResolution).empty());
+    EXPECT_TRUE(poses_of(pose, 6.0F).empty());
     EXPECT_EQ(map_of_room(pose), map_of_room(pose, never));
   }
 }
@@ -53,7 +61,7 @@ RC_GTEST_PROP(PoseBlur, ThePosesHaveTheMeanAndTheCovariance, ()) {
   for (double& entry : root.reshaped()) entry = number(-60, 60);
   Believed<PoseEstimate> pose = certain({number(-9000, 9000), number(-9000, 9000), number(-3000, 3000)});
   pose.value.covariance = root * root.transpose();
-  const auto poses = poses_for_blur(pose, 3.0, kResolution, {.from_cells = 0.1, .most_cells = 100.0});
+  const auto poses = poses_of(pose, 3.0F, {.from_cells = 0.1, .most_cells = 100.0});
   RC_PRE(!poses.empty());
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -128,6 +136,40 @@ TEST(PoseBlur, BlursSonarToo) {
   EXPECT_EQ(map(with_sigma({}, 0.1, 0.0)), blurred);
 }
 
+TEST(PoseBlur, FoldsBlurScansAsTheSumDoes) {
+  const auto pose = with_sigma(kPose, 0.1, 0.01);
+  SequentialMapper<DempsterFold> fold(rig_with(panoramic()), {});
+  fold.insert(pose, scan_of_room(panoramic(), kPose, 6.025, 3.025));
+  EXPECT_EQ(fold.counts(), (MappingCounts{.scans = 1, .echoes = 360}));
+  const grids::EvidentialGrid sum = map_of_room(pose);
+  int cells = 0;
+  fold.grid().for_each([&](grids::CellIndex cell, const evidence::GridMass& mass) {
+    const evidence::GridMass expected = evidence::normalised_masses(sum.at(cell).value());
+    EXPECT_NEAR(mass.occupied, expected.occupied, 1e-9);
+    EXPECT_NEAR(mass.empty, expected.empty, 1e-9);
+    ++cells;
+  });
+  EXPECT_EQ(cells, cells_in(sum));
+}
+
+TEST(PoseBlur, FoldsBlurASonarsMasses) {
+  const auto masses = [](const Believed<PoseEstimate>& from) {
+    SequentialMapper<DsmcFold> mapper(rig_with(one_sonar()), {});
+    mapper.insert(from, sensors::SonarSweep{0, 0, {1.0F}});
+    EXPECT_EQ(mapper.counts(), (MappingCounts{.sweeps = 1, .echoes = 1}));
+    return mapper.masses();
+  };
+  const grids::MassMap sharp = masses(certain({})), blurred = masses(with_sigma({}, 0.1, 0.0));
+  EXPECT_GT(blurred.box.height, sharp.box.height);
+  const auto near = [](const grids::MassMap& map) { return map.at({6, 0}); };  // a third of the way
+  EXPECT_GT(near(blurred).empty, 0.8 * near(sharp).empty);
+  EXPECT_NEAR(near(blurred).empty + near(blurred).occupied + near(blurred).conflict + near(blurred).unknown, 1.0,
+              1e-12);
+  const auto beyond = [](const grids::MassMap& map) { return map.at({24, 0}).occupied; };  // 20 cm behind the echo
+  EXPECT_LT(beyond(sharp), 1e-3);
+  EXPECT_GT(beyond(blurred), 1e-2);
+}
+
 TEST(PoseBlur, CountsReadingsOnce) {
   Mapper mapper(rig_with(panoramic()));
   mapper.insert(with_sigma(kPose, 0.1, 0.01), scan_of_room(panoramic(), kPose, 6.0, 3.0));
@@ -137,7 +179,7 @@ TEST(PoseBlur, CountsReadingsOnce) {
 TEST(PoseBlur, RefusesParametersThatAreNone) {
   for (const PoseBlurParams& params : {PoseBlurParams{.from_cells = 0.0}, PoseBlurParams{.from_cells = std::nan("")},
                                        PoseBlurParams{.most_cells = -1.0}})
-    EXPECT_THROW(static_cast<void>(poses_for_blur(certain({}), 1.0, kResolution, params)), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(poses_of(certain({}), 1.0F, params)), std::invalid_argument);
 }
 
 TEST(EvidenceMean, IsTheMeanOfMasses) {
