@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "mapping/mapper.hpp"
@@ -74,9 +75,21 @@ std::vector<double> new_shares(const sensors::MotionPath& T_map_base, std::span<
 TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
                         std::span<const sensors::RangeScan> scans, std::span<const sensors::SonarSweep> sweeps,
                         const TrajectoryMappingParams& params, const std::function<void(double share)>& progress) {
+  const NewShares shares{.of_scans = new_shares(T_map_base, scans, params),
+                         .of_sweeps = new_shares(T_map_base, sweeps, params)};
+  return map_along(T_map_base, rig, scans, sweeps, shares, params, progress);
+}
+
+TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
+                        std::span<const sensors::RangeScan> scans, std::span<const sensors::SonarSweep> sweeps,
+                        const NewShares& shares, const TrajectoryMappingParams& params,
+                        const std::function<void(double share)>& progress) {
   if (T_map_base.empty()) throw std::invalid_argument("the trajectory has no pose: nothing can be mapped along it");
-  const std::vector<double> new_of_scans = new_shares(T_map_base, scans, params);
-  const std::vector<double> new_of_sweeps = new_shares(T_map_base, sweeps, params);
+  if (shares.of_scans.size() != scans.size() || shares.of_sweeps.size() != sweeps.size())
+    throw std::invalid_argument("expected one share for each reading: " + std::to_string(shares.of_scans.size()) +
+                                " for " + std::to_string(scans.size()) + " scans, " +
+                                std::to_string(shares.of_sweeps.size()) + " for " + std::to_string(sweeps.size()) +
+                                " sweeps");
   // Sums of evidence do not depend on their order, so every thread maps what it gets into a grid of its own.
   tbb::enumerable_thread_specific<Worker> workers([&] { return Worker{Mapper(rig, params.mapper), 0}; });
   const auto insert = [&](const auto& reading, double share) {
@@ -92,9 +105,9 @@ TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Ri
     if (progress) progress(static_cast<double>(done) / static_cast<double>(scans.size() + sweeps.size()));
   };
   insert_in_batches(
-      scans.size(), [&](std::size_t i) { insert(scans[i], new_of_scans[i]); }, report);
+      scans.size(), [&](std::size_t i) { insert(scans[i], shares.of_scans[i]); }, report);
   insert_in_batches(
-      sweeps.size(), [&](std::size_t i) { insert(sweeps[i], new_of_sweeps[i]); },
+      sweeps.size(), [&](std::size_t i) { insert(sweeps[i], shares.of_sweeps[i]); },
       [&](std::size_t done) { report(scans.size() + done); });
 
   TrajectoryMap map{Mapper(rig, params.mapper).take_grid(), {}, 0};

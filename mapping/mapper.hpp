@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "evidence/believed.hpp"
 #include "grids/evidential_grid.hpp"
@@ -102,6 +103,20 @@ struct TrajectoryMap {
 [[nodiscard]] TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
                                       std::span<const sensors::RangeScan> scans,
                                       std::span<const sensors::SonarSweep> sweeps,
+                                      const TrajectoryMappingParams& params = {},
+                                      const std::function<void(double share)>& progress = {});
+
+/// How much of each reading is new, in the order of the readings.
+struct NewShares {
+  std::vector<double> of_scans, of_sweeps;
+};
+
+/// The map of a part of a drive, whose shares are of the whole drive (new_shares): the maps of all parts, merged, are
+/// that of the drive to the last bit, however it was dealt out.
+/// \throws std::invalid_argument also if there is not one share in (0, 1] for each reading
+[[nodiscard]] TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
+                                      std::span<const sensors::RangeScan> scans,
+                                      std::span<const sensors::SonarSweep> sweeps, const NewShares& shares,
                                       const TrajectoryMappingParams& params = {},
                                       const std::function<void(double share)>& progress = {});
 

@@ -114,5 +114,28 @@ TEST(ManyRobots, MakeOneMapToTheBitHoweverTheirReadingsAreDealtOut) {
   EXPECT_EQ(merged_by_chance(std::move(maps), generator), expected);
 }
 
+/// A drive dealt out to map_along, in parts that interleave.
+TEST(ManyRobots, OrPartsOfOneDriveMakeItsMapToTheBit) {
+  const Robot whole = robot(3);
+  const std::vector<double> of_scans = new_shares(whole.path, whole.scans, whole.params),
+                            of_sweeps = new_shares(whole.path, whole.sweeps, whole.params);
+  grids::EvidentialGrid merged;
+  for (std::size_t part = 0; part < 3; ++part) {
+    std::vector<sensors::RangeScan> scans;
+    std::vector<sensors::SonarSweep> sweeps;
+    NewShares shares;
+    for (std::size_t k = part; k < whole.scans.size(); k += 3) {
+      scans.push_back(whole.scans[k]);
+      sweeps.push_back(whole.sweeps[k]);
+      shares.of_scans.push_back(of_scans[k]);
+      shares.of_sweeps.push_back(of_sweeps[k]);
+    }
+    merged.merge(map_along(whole.path, whole.rig, scans, sweeps, shares, whole.params).grid);
+  }
+  EXPECT_EQ(merged, map_of(whole));
+  EXPECT_THROW(static_cast<void>(map_along(whole.path, whole.rig, whole.scans, whole.sweeps, NewShares{})),
+               std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace credo::mapping
