@@ -13,6 +13,7 @@
 
 #include "apps/about.hpp"
 #include "apps/commands.hpp"
+#include "apps/map_region.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output.hpp"
 #include "datasets/map_server.hpp"
@@ -50,7 +51,7 @@ struct CellAnswer {
 }
 
 CellAnswer ask_sum(const CellOptions& o) {
-  const grids::EvidentialGrid grid = results::read_map_folder(o.map);
+  const grids::EvidentialGrid grid = read_map_region(o.map, {o.x_m, o.y_m, o.x_m, o.y_m});
   const grids::CellIndex cell = grid.georeference().cell_at({o.x_m, o.y_m});
   const evidence::FixedLogCommonality known = grid.at(cell);
   if (known == evidence::FixedLogCommonality{}) fail_unseen(o);
@@ -130,8 +131,6 @@ void print_cell_text(const CellAnswer& answer) {
 }
 
 void execute(const CellOptions& o) {
-  if (!fs::is_directory(o.map))
-    throw std::runtime_error(o.map + ": is no folder: expected one that credo map or credo run has left");
   const CellAnswer answer = about(o.map, [&] { return results::is_rule_map(o.map) ? ask_rule(o) : ask_sum(o); });
   o.format.json() ? print_cell_json(answer) : print_cell_text(answer);
 }
@@ -144,7 +143,9 @@ void add_cell(CLI::App& app) {
       "  credo cell results/office_map 3.2 1.5    masses, Bel, Pl, BetP, DSmP\n"
       "  credo cell results/changing 3.2 1.5      of a map by --rule changing, also since when it is so");
   auto o = std::make_shared<CellOptions>();
-  command->add_option("MAP", o->map, "a results folder of credo map or credo run")->check(a_path())->required();
+  command->add_option("MAP", o->map, "a results folder of credo map or credo run, or a map.cgrid")
+      ->check(a_path())
+      ->required();
   command->add_option("X", o->x_m, "in the map's frame [m]")->check(number_in(-1e6, 1e6))->required();
   command->add_option("Y", o->y_m, "in the map's frame [m]")->check(number_in(-1e6, 1e6))->required();
   add_format_option(*command, o->format);

@@ -137,6 +137,14 @@ void check_overlap(const MapOptions& o, const std::vector<MapPart>& parts, const
   if (10 * without_pose > all) say_warning(message);
 }
 
+/// A map that nothing was seen for is no success to be silent about.
+void warn_of_empty(const mapping::MappingCounts& counts) {
+  if (counts.echoes + counts.no_returns > 0) return;
+  say_warning("no range could be mapped: " + std::to_string(counts.missing) + " are nan, " +
+              std::to_string(counts.out_of_range) + " out of the sensor's range, " + std::to_string(counts.refused) +
+              " readings have a pose that is not to be trusted; the map is empty");
+}
+
 /// Whether the map is small enough for pictures, and was drawn.
 bool write_map_files(const MapOptions& o, const mapping::TrajectoryMap& made, std::span<const geometry::Pose2> way,
                      const fs::path& folder, const std::optional<PictureFolder>& pictures) {
@@ -148,9 +156,9 @@ bool write_map_files(const MapOptions& o, const mapping::TrajectoryMap& made, st
 
 bool write_map_files(const MapOptions& o, const mapping::RuleMap& made, std::span<const geometry::Pose2>,
                      const fs::path& folder, const std::optional<PictureFolder>& pictures) {
-  const bool trinary = o.files.mode == datasets::MapMode::kTrinary;
+  const bool trinary = o.files.mode() == datasets::MapMode::kTrinary;
   datasets::write_map(trinary ? results::to_occupancy(made.map) : results::to_probabilities(made.map),
-                      folder / "map.yaml", o.files.mode);
+                      folder / "map.yaml", o.files.mode());
   results::write_belief_tiff(results::belief_image(made.map), folder / "map_belief.tiff");
   if (!made.history.empty()) results::write_cell_history(made.history, made.map.georeference, folder / "history.csv");
   if (!pictures) return true;
@@ -236,6 +244,7 @@ void execute(MapOptions o) {
   const auto [counts, without_pose] =
       std::visit([](const auto& map) { return std::pair(map.counts, map.without_pose); }, made);
   check_overlap(o, parts, counts, without_pose, poses);
+  warn_of_empty(counts);
   if (const auto* sum = std::get_if<mapping::TrajectoryMap>(&made)) warn_of_saturation(sum->grid);
   about(o.from.source, [&] { write(o, made, parts, poses, folder.path(), pictures); });
   Interruptible::check();

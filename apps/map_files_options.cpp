@@ -3,9 +3,12 @@
 
 #include "apps/map_files_options.hpp"
 
-#include <map>
-
 namespace credo::apps {
+
+datasets::MapMode MapFilesOptions::mode() const {
+  if (map_mode == "scale") return datasets::MapMode::kScale;
+  return map_mode == "raw" ? datasets::MapMode::kRaw : datasets::MapMode::kTrinary;
+}
 
 void add_map_files_options(CLI::App& command, MapFilesOptions& options) {
   command
@@ -13,12 +16,10 @@ void add_map_files_options(CLI::App& command, MapFilesOptions& options) {
                   "channels of map_belief.tiff: after Dempster's normalisation, or raw masses")
       ->check(CLI::IsMember({"normalized", "raw"}))
       ->capture_default_str();
-  command.add_option("--map-mode", options.mode, "what the grey of map.yaml says: trinary, scale (percent) or raw")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, datasets::MapMode>{{"trinary", datasets::MapMode::kTrinary},
-                                                                           {"scale", datasets::MapMode::kScale},
-                                                                           {"raw", datasets::MapMode::kRaw}}))
-      ->default_str("trinary");
+  command
+      .add_option("--map-mode", options.map_mode, "what the grey of map.yaml says: decisions, percent or probability")
+      ->check(CLI::IsMember({"trinary", "scale", "raw"}))
+      ->capture_default_str();
 }
 
 }  // namespace credo::apps

@@ -13,11 +13,12 @@ namespace credo::apps {
 /// What is written of a map beside the map itself.
 struct MapFilesOptions {
   std::string readout = "normalized";
-  datasets::MapMode mode = datasets::MapMode::kTrinary;
+  std::string map_mode = "trinary";
 
   [[nodiscard]] bool raw() const { return readout == "raw"; }
+  [[nodiscard]] datasets::MapMode mode() const;
   [[nodiscard]] results::MapFolderParams params() const {
-    return {.mode = mode, .channels = raw() ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized};
+    return {.mode = mode(), .channels = raw() ? results::BeliefChannels::kRaw : results::BeliefChannels::kNormalized};
   }
 };
 

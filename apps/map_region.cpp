@@ -35,7 +35,7 @@ void add_region_option(CLI::App& command, std::vector<double>& region) {
 grids::EvidentialGrid read_map_region(const std::string& source, const std::vector<double>& region) {
   const fs::path file = fs::is_directory(source) ? fs::path(source) / "map.cgrid" : fs::path(source);
   if (file.extension() != ".cgrid" || !fs::exists(file))
-    throw std::runtime_error(source + ": only of a map.cgrid can a region be read, and there is none");
+    throw std::runtime_error(source + ": expected a map.cgrid, or a folder of credo map or credo run that holds one");
   const datasets::GridFile whole(file);
   return region.empty() ? whole.read() : whole.read(region_box(whole.georeference(), region));
 }

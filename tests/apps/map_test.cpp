@@ -65,6 +65,13 @@ TEST_F(Command, OfALogOnlyTheSensorsAskedForAreMapped) {
   }
 }
 
+TEST_F(Command, AMapOfNothingIsSaidToBeOne) {
+  write("nothing.log", "FLASER 4 nan nan nan nan 0 0 0 0 0 0 1.2 host 1.2\n");
+  const Answer answer = credo("map nothing.log --out out");
+  EXPECT_EQ(answer.status, 0) << answer.error;
+  EXPECT_THAT(answer.error, HasSubstr("no range could be mapped: 4 are nan"));
+}
+
 TEST_F(Command, ALogThatFillsTheRangeOfItsCellsIsMappedWithAWarning) {
   std::string log;
   for (int k = 0; k < 1000; ++k) {  // the same wall, seen from two places in turn
@@ -149,7 +156,7 @@ TEST_F(Command, ACellIsAskedWhatIsKnownOfItAndSinceWhen) {
     EXPECT_EQ(outside.status, 1);
     EXPECT_THAT(outside.error, HasSubstr("nothing was seen at (5000, 0)"));
   }
-  EXPECT_THAT(credo("cell data/dataset.yaml 0 0").error, HasSubstr("expected one that credo map"));
+  EXPECT_THAT(credo("cell data/dataset.yaml 0 0").error, HasSubstr("expected a map.cgrid"));
 }
 
 TEST_F(Command, AnOptionOfAMapThatWouldHaveNoEffectIsRefused) {

@@ -59,7 +59,7 @@ TEST_F(Command, AMapFileTellsWhatItHoldsAndIsReadInParts) {
   EXPECT_EQ(all["length_m"], whole["length_m"]);
   EXPECT_THAT(credo("plan map --region 900 900 910 910 --out none.yaml").error, HasSubstr("no wall"));
   EXPECT_THAT(credo("plan data/truth_map.yaml --region 0 0 1 1 --out none.yaml").error,
-              HasSubstr("only of a map.cgrid can a region be read"));
+              HasSubstr("expected a map.cgrid"));
 }
 
 TEST_F(Command, ARegionOfAMapIsAMapOfItsOwn) {
@@ -74,6 +74,7 @@ TEST_F(Command, ARegionOfAMapIsAMapOfItsOwn) {
   EXPECT_THAT(read("part/config.yaml"), HasSubstr("region_m: [1, 2.5, 3, 1]"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "p/map_relief.png"));
   EXPECT_EQ(credo("cell part 2 2").out, credo("cell map 2 2").out);
+  EXPECT_EQ(credo("cell part/map.cgrid 2 2").out, credo("cell map 2 2").out);
   EXPECT_EQ(credo("export map/map.cgrid --out whole").status, 0);
   EXPECT_EQ(read("whole/map.cgrid"), read("map/map.cgrid"));
   EXPECT_EQ(read("whole/map_belief.tiff"), read("map/map_belief.tiff"));
@@ -81,7 +82,7 @@ TEST_F(Command, ARegionOfAMapIsAMapOfItsOwn) {
   EXPECT_THAT(credo("export map --out whole").error, HasSubstr("--force"));
   EXPECT_EQ(credo("export map --out whole --force").status, 0);
   EXPECT_THAT(credo("export map --region 900 900 910 910 --out none").error, HasSubstr("nothing was seen"));
-  EXPECT_THAT(credo("export data --out none").error, HasSubstr("only of a map.cgrid"));
+  EXPECT_THAT(credo("export data --out none").error, HasSubstr("expected a map.cgrid"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
 }
 
