@@ -11,12 +11,13 @@
 #include <random>
 #include <sstream>
 
+#include "tests/geometry/any_number.hpp"
+
 namespace credo::geometry {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double any_number(int low, int high) { return 1e-4 * *rc::gen::inRange(low * 10'000, high * 10'000); }
 Pose2 any_pose() { return {any_number(-20, 20), any_number(-20, 20), any_number(-7, 7)}; }
 
 void require_near(const Pose2& a, const Pose2& b) {

@@ -10,10 +10,10 @@
 #include <limits>
 #include <numbers>
 
+#include "tests/geometry/any_number.hpp"
+
 namespace credo::geometry {
 namespace {
-
-double any_number() { return 1e-3 * *rc::gen::inRange(-10'000, 10'000); }
 
 RC_GTEST_PROP(PrincipalAxes, MakeUpTheCovariance, ()) {
   Eigen::Matrix2d root;

@@ -8,10 +8,11 @@
 
 #include <limits>
 
+#include "tests/geometry/any_number.hpp"
+
 namespace credo::geometry {
 namespace {
 
-double any_number() { return 1e-3 * *rc::gen::inRange(-10'000, 10'000); }
 Eigen::Vector2d any_point() { return {any_number(), any_number()}; }
 
 TEST(SegmentDistance, IsMeasuredToTheNearestPoint) {

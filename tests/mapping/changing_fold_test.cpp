@@ -13,8 +13,8 @@ namespace {
 using evidence::GridMass;
 
 constexpr sensors::Timestamp kSecond = 1'000'000'000, kStart = 1'600'000'000 * kSecond;
-constexpr GridMass kSaysEmpty{.empty = 0.855, .occupied = 0.0475, .conflict = 0.0, .unknown = 0.0975};
-constexpr GridMass kSaysOccupied{.empty = 0.0475, .occupied = 0.855, .conflict = 0.0, .unknown = 0.0975};
+constexpr GridMass kBeamSaysEmpty{.empty = 0.855, .occupied = 0.0475, .conflict = 0.0, .unknown = 0.0975};
+constexpr GridMass kBeamSaysOccupied{.empty = 0.0475, .occupied = 0.855, .conflict = 0.0, .unknown = 0.0975};
 
 struct Watched {
   ChangingFold rule;
@@ -32,16 +32,16 @@ struct Watched {
 
 TEST(ChangingFold, FollowsAChangeInThreeReadingsAndKnowsSinceWhen) {
   Watched watched;
-  watched.see(kSaysEmpty, 200);
+  watched.see(kBeamSaysEmpty, 200);
   EXPECT_FALSE(watched.occupied());
   EXPECT_EQ(watched.cell.changes, 0);
   const sensors::Timestamp put_there = watched.now + kSecond;
-  watched.see(kSaysOccupied, 3);
+  watched.see(kBeamSaysOccupied, 3);
   EXPECT_TRUE(watched.occupied());
   EXPECT_EQ(watched.cell.changes, 1);
   EXPECT_EQ(since_when(watched.cell), put_there);
   const sensors::Timestamp taken_away = watched.now + kSecond;
-  watched.see(kSaysEmpty, 3);
+  watched.see(kBeamSaysEmpty, 3);
   EXPECT_FALSE(watched.occupied());
   EXPECT_EQ(watched.cell.changes, 2);
   EXPECT_EQ(since_when(watched.cell), taken_away);
@@ -49,13 +49,13 @@ TEST(ChangingFold, FollowsAChangeInThreeReadingsAndKnowsSinceWhen) {
 
 TEST(ChangingFold, NoiseIsNoChange) {
   Watched watched;
-  watched.see(kSaysOccupied, 20);
+  watched.see(kBeamSaysOccupied, 20);
   const auto since = since_when(watched.cell);
   for (int i = 0; i < 30; ++i) {
-    watched.see(kSaysEmpty, 1);
+    watched.see(kBeamSaysEmpty, 1);
     EXPECT_GT(changing(watched.cell), 0.5);
     EXPECT_TRUE(watched.occupied());
-    watched.see(kSaysOccupied, 3);
+    watched.see(kBeamSaysOccupied, 3);
     EXPECT_EQ(changing(watched.cell), 0.0);
   }
   EXPECT_EQ(watched.cell.changes, 0);
@@ -64,8 +64,8 @@ TEST(ChangingFold, NoiseIsNoChange) {
 
 TEST(ChangingFold, EmptyAgesFasterThanOccupied) {
   Watched empty, occupied;
-  empty.see(kSaysEmpty, 10);
-  occupied.see(kSaysOccupied, 10);
+  empty.see(kBeamSaysEmpty, 10);
+  occupied.see(kBeamSaysOccupied, 10);
   for (Watched* watched : {&empty, &occupied}) {
     watched->now += 600 * kSecond;
     EXPECT_TRUE(watched->rule.update(watched->cell, GridMass::vacuous(), watched->now));
@@ -77,13 +77,13 @@ TEST(ChangingFold, EmptyAgesFasterThanOccupied) {
 
 TEST(ChangingFold, AContradictionOfLongAgoSaysNothingTogetherWithOneOfNow) {
   Watched watched;
-  watched.see(kSaysOccupied, 10);
-  watched.see(kSaysEmpty, 1);
+  watched.see(kBeamSaysOccupied, 10);
+  watched.see(kBeamSaysEmpty, 1);
   watched.now += 24 * 3600 * kSecond;
-  watched.see(kSaysEmpty, 1);
+  watched.see(kBeamSaysEmpty, 1);
   EXPECT_FALSE(since_when(watched.cell));  // it may be anything by now
   EXPECT_EQ(watched.cell.changes, 0);
-  watched.see(kSaysEmpty, 2);
+  watched.see(kBeamSaysEmpty, 2);
   EXPECT_EQ(watched.cell.changes, 1);
   EXPECT_GE(since_when(watched.cell).value_or(0), watched.now - 2 * kSecond);
 }
@@ -91,13 +91,13 @@ TEST(ChangingFold, AContradictionOfLongAgoSaysNothingTogetherWithOneOfNow) {
 TEST(ChangingFold, WhatIsSeenAgainAfterHoursIsWhatIsSeen) {
   for (const bool same : {true, false}) {
     Watched watched;
-    watched.see(kSaysEmpty, 10);
-    watched.see(kSaysOccupied, 1);
+    watched.see(kBeamSaysEmpty, 10);
+    watched.see(kBeamSaysOccupied, 1);
     watched.now += 4 * 3600 * kSecond;
-    watched.see(same ? kSaysEmpty : kSaysOccupied, 1);
+    watched.see(same ? kBeamSaysEmpty : kBeamSaysOccupied, 1);
     EXPECT_EQ(watched.occupied(), !same);
     EXPECT_GT(std::max(watched.cell.mass.empty, watched.cell.mass.occupied), 0.8);
-    watched.see(same ? kSaysEmpty : kSaysOccupied, 2);
+    watched.see(same ? kBeamSaysEmpty : kBeamSaysOccupied, 2);
     EXPECT_EQ(watched.cell.changes, same ? 0 : 1);
     EXPECT_TRUE(since_when(watched.cell));
   }
@@ -106,8 +106,8 @@ TEST(ChangingFold, WhatIsSeenAgainAfterHoursIsWhatIsSeen) {
 /// A cell at the edge of something is seen both ways for ever.
 TEST(ChangingFold, WhatFlickersIsInNoStateInTheEnd) {
   Watched watched;
-  watched.see(kSaysEmpty, 10);
-  for (int i = 0; i < 2000; ++i) watched.see(i % 2 == 0 ? kSaysOccupied : kSaysEmpty, 1);
+  watched.see(kBeamSaysEmpty, 10);
+  for (int i = 0; i < 2000; ++i) watched.see(i % 2 == 0 ? kBeamSaysOccupied : kBeamSaysEmpty, 1);
   const GridMass& mass = watched.cell.mass;
   EXPECT_NEAR(mass.empty + mass.occupied + mass.unknown, 1.0, 1e-9);
   EXPECT_LE(watched.cell.changes, 2);
@@ -130,7 +130,7 @@ TEST(ChangingFold, WeakReadingsAddUpToAChange) {
 TEST(ChangingFold, TimeMayBeginAtZero) {
   Watched watched;
   watched.now = -kSecond;  // the first reading is of time 0
-  watched.see(kSaysEmpty, 1);
+  watched.see(kBeamSaysEmpty, 1);
   watched.now += 24 * 3600 * kSecond;
   EXPECT_TRUE(watched.rule.update(watched.cell, GridMass::vacuous(), watched.now));
   EXPECT_LT(watched.cell.mass.empty, 0.01);
@@ -139,7 +139,7 @@ TEST(ChangingFold, TimeMayBeginAtZero) {
 TEST(ChangingFold, AReadingThatIsConflictAloneLeavesACellAsItWas) {
   for (const int times : {1, 10}) {  // in no state, and settled
     Watched watched;
-    watched.see(kSaysEmpty, times);
+    watched.see(kBeamSaysEmpty, times);
     const ChangingFold::Cell before = watched.cell;
     EXPECT_FALSE(watched.rule.update(watched.cell, {.empty = 0.0, .occupied = 0.0, .conflict = 1.0, .unknown = 0.0},
                                      watched.now + 3600 * kSecond));

@@ -18,13 +18,13 @@ using namespace test;  // NOLINT: the helpers of these tests
 constexpr sensors::Timestamp kStep = 100'000'000;
 
 /// A ring of eight and a laser on their way through a room of 5 m x 4 m.
-struct Drive {
+struct DriveOfBoth {
   sensors::Rig rig;
   sensors::MotionPath path;
   std::vector<sensors::RangeScan> scans;
   std::vector<sensors::SonarSweep> sweeps;
 
-  Drive() {
+  DriveOfBoth() {
     rig = rig_with(panoramic());
     sensors::SonarRing ring;
     for (int i = 0; i < 8; ++i) ring.T_base_transducer.push_back({0.0, 0.0, i * kPi / 4.0});
@@ -52,7 +52,7 @@ struct Drive {
 };
 
 TEST(MapRule, EveryRuleFindsTheRoom) {
-  const Drive drive;
+  const DriveOfBoth drive;
   for (const NamedRule& rule : map_rules()) {
     const RuleMap made = drive.mapped(rule.rule);
     const auto at = [&](double x, double y) { return made.map.at(made.map.georeference.cell_at({x, y})); };
@@ -65,7 +65,7 @@ TEST(MapRule, EveryRuleFindsTheRoom) {
 }
 
 TEST(MapRule, DsmcAndDempsterDecideAlikeInEveryCell) {
-  const Drive drive;
+  const DriveOfBoth drive;
   const grids::MassMap dsmc = drive.mapped(grids::ReadOut::kDsmc).map;
   const grids::MassMap dempster = drive.mapped(grids::ReadOut::kDempster).map;
   ASSERT_EQ(dsmc.box, dempster.box);
@@ -74,7 +74,7 @@ TEST(MapRule, DsmcAndDempsterDecideAlikeInEveryCell) {
 }
 
 TEST(MapRule, AFoldOfDempsterAgreesWithTheSum) {
-  const Drive drive;
+  const DriveOfBoth drive;
   const grids::MassMap fold = drive.mapped(DempsterFold{}).map, sum = drive.mapped(grids::ReadOut::kDempster).map;
   int cells = 0, alike = 0;
   for (int y = sum.box.min.y; y < sum.box.min.y + sum.box.height; ++y)
@@ -88,7 +88,7 @@ TEST(MapRule, AFoldOfDempsterAgreesWithTheSum) {
 
 /// Of the laser alone, whose evidence is the same in both: a sonar's comes from tables in the one.
 TEST(MapRule, FloatsDecideAsFixedPointDoes) {
-  Drive drive;
+  DriveOfBoth drive;
   drive.sweeps.clear();
   const grids::MassMap floats = drive.mapped(DempsterFloatFold{}).map,
                        fixed = drive.mapped(grids::ReadOut::kDempster).map;
@@ -106,8 +106,8 @@ TEST(MapRule, FloatsDecideAsFixedPointDoes) {
 }
 
 TEST(MapRule, FoldsTakeReadingsInByTimeHoweverTheyAreGiven) {
-  const Drive drive;
-  Drive reversed = drive;
+  const DriveOfBoth drive;
+  DriveOfBoth reversed = drive;
   std::ranges::reverse(reversed.scans);
   std::ranges::reverse(reversed.sweeps);
   for (const MapRule& rule : {MapRule{ChangingFold{}}, MapRule{Pcr2Fold{}}, MapRule{DempsterFold{}}})
@@ -135,7 +135,7 @@ TEST(MapRule, ARobotAtRestFollowsAChangeByRulesThatForget) {
 }
 
 TEST(MapRule, SameReadingsGiveTheSameMap) {
-  const Drive drive;
+  const DriveOfBoth drive;
   EXPECT_EQ(drive.mapped(Pcr5Fold{}).map.masses, drive.mapped(Pcr5Fold{}).map.masses);
 }
 

@@ -8,16 +8,10 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "tests/results/has_color.hpp"
+
 namespace credo::results {
 namespace {
-
-/// Whether some pixel has just this colour.
-bool has(const cv::Mat& picture, Color color) {
-  cv::Mat found;
-  const cv::Scalar bgr(color.blue, color.green, color.red);
-  cv::inRange(picture, bgr, bgr, found);
-  return cv::countNonZero(found) > 0;
-}
 
 History two_moments() {
   History history(2);

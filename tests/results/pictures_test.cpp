@@ -13,18 +13,10 @@
 #include "results/history.hpp"
 #include "results/plot.hpp"
 
+#include "tests/results/has_color.hpp"
+
 namespace credo::results {
 namespace {
-
-bool has(const cv::Mat& picture, Color color) {
-  for (int v = 0; v < picture.rows; ++v) {
-    for (int u = 0; u < picture.cols; ++u) {
-      const cv::Vec3b p = picture.at<cv::Vec3b>(v, u);
-      if (p[0] == color.blue && p[1] == color.green && p[2] == color.red) return true;
-    }
-  }
-  return false;
-}
 
 History history() {
   History result;

@@ -9,10 +9,11 @@
 #include <limits>
 #include <numbers>
 
+#include "tests/sensors/second.hpp"
+
 namespace credo::sensors {
 namespace {
 
-constexpr Timestamp kSecond = 1'000'000'000;
 constexpr float kInf = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
 
 RangeFinder panoramic(int count) {

@@ -9,10 +9,11 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "tests/sensors/second.hpp"
+
 namespace credo::sensors {
 namespace {
 
-constexpr Timestamp kSecond = 1'000'000'000;
 using Rows = std::vector<OdometryReading>;
 
 MotionPath straight_path() {  // 1 m/s along x, then at rest

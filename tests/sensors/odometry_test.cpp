@@ -9,10 +9,10 @@
 #include <cmath>
 #include <random>
 
+#include "tests/sensors/second.hpp"
+
 namespace credo::sensors {
 namespace {
-
-constexpr Timestamp kSecond = 1'000'000'000;
 
 /// `rows` rows over two seconds: along an arc of the given length and turn.
 MotionPath arc(int rows, double length, double turn) {

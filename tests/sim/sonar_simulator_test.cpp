@@ -13,7 +13,7 @@
 namespace credo::sim {
 namespace {
 
-World wall_at(double x, const char* material = "plain") {
+World wall_for_sonar(double x, const char* material = "plain") {
   World world = ideal_room();
   world.panels = {{{x, -20.0}, {x, 20.0}, 0.0, 3.0, material_index(world, material), true}};
   return world;
@@ -25,7 +25,7 @@ double echo(const World& world, const geometry::Pose2& pose) {
 }
 
 TEST(SonarSimulator, ASmoothWallAnswersOnlyWhenMetNearlyHeadOn) {
-  const World world = wall_at(1.5);
+  const World world = wall_for_sonar(1.5);
   EXPECT_NEAR(echo(world, {0.0, 0.0, 0.0}), 1.5, 0.01);
   // The nearest point of the wall still lies in the beam: its distance is read, not that along the axis.
   EXPECT_NEAR(echo(world, {0.0, 0.0, 0.15}), 1.5, 0.02);
@@ -34,9 +34,9 @@ TEST(SonarSimulator, ASmoothWallAnswersOnlyWhenMetNearlyHeadOn) {
 }
 
 TEST(SonarSimulator, ARoughWallAnswersFromFurtherAside) {
-  EXPECT_TRUE(std::isfinite(echo(wall_at(1.0, "brick"), {0.0, 0.0, 0.6})));
-  EXPECT_TRUE(std::isinf(echo(wall_at(1.0), {0.0, 0.0, 0.6})));
-  EXPECT_TRUE(std::isinf(echo(wall_at(1.0, "brick"), {0.0, 0.0, 1.2})));
+  EXPECT_TRUE(std::isfinite(echo(wall_for_sonar(1.0, "brick"), {0.0, 0.0, 0.6})));
+  EXPECT_TRUE(std::isinf(echo(wall_for_sonar(1.0), {0.0, 0.0, 0.6})));
+  EXPECT_TRUE(std::isinf(echo(wall_for_sonar(1.0, "brick"), {0.0, 0.0, 1.2})));
 }
 
 TEST(SonarSimulator, ACornerAnswersWhateverItsWallsAngle) {
@@ -73,7 +73,7 @@ TEST(SonarSimulator, ADetourIsReadTooLong) {
 }
 
 TEST(SonarSimulator, RangesCarryNoiseCrossTalkAndLimits) {
-  const World world = wall_at(1.5);
+  const World world = wall_for_sonar(1.5);
   SonarSetup setup = sonar_preset("pioneer-16");
   setup.cross_talk_share = 0.05;
   const SonarSimulator simulator(world, setup, 0, 1);
@@ -101,7 +101,7 @@ TEST(SonarSimulator, RangesCarryNoiseCrossTalkAndLimits) {
 }
 
 TEST(SonarSimulator, TransducersFireOneAfterAnother) {
-  const World world = wall_at(2.0);
+  const World world = wall_for_sonar(2.0);
   SonarSetup setup = sonar_preset("pioneer-16");
   setup.cross_talk_share = 0.0;
   setup.ring.sigma_m = setup.relative_sigma = 0.0;

@@ -42,7 +42,7 @@ inline World ideal_room() {
 
 /// The file of a world that is shipped.
 inline std::string shipped(const std::string& name) {
-  return std::string(CREDO_SOURCE_DIR) + "/sim/worlds/" + name + ".yaml";
+  return CREDO_SOURCE_DIR "/sim/worlds/" + name + ".yaml";
 }
 
 }  // namespace credo::sim
