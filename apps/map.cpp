@@ -45,6 +45,8 @@ namespace fs = std::filesystem;
 struct MapOptions {
   MapSource from;
   SonarChoice sonar;
+  LaserChoice laser;
+  bool printed = false;
   std::string rule;  ///< empty: the map that no order changes, of which most rules are read-outs
   std::string out, pictures;
   std::string readout = "normalized";
@@ -199,7 +201,9 @@ void execute(MapOptions o) {
   const auto [parts, poses] = read_map_parts(o.from);
   if (o.out.empty())
     o.out = (fs::path("results") / (fs::path(o.from.source).lexically_normal().stem().string() + "_map")).string();
+  o.sonar.printed = o.laser.printed = o.printed;
   o.params.mapper.sonar = sonar_params(o.sonar, o.params.mapper.georeference.resolution_m);
+  o.params.mapper.laser = laser_params(o.laser);
   const Interruptible interruptible;
   datasets::StagedFolder folder = results::stage_results(o.out, o.force);
   std::optional<PictureFolder> pictures;
@@ -237,13 +241,19 @@ void execute(MapOptions o) {
   if (!o.pictures.empty()) std::printf("pictures: %s\n", o.pictures.c_str());
 }
 
-/// The sonar model and the rule.
+/// The sensor models and the rule.
 void add_method_options(CLI::App& command, MapOptions& o) {
-  const auto models = mapping::sonar_model_names();
+  const auto names = [](std::span<const std::string_view> models) {
+    return std::vector<std::string>(models.begin(), models.end());
+  };
   command.add_option("--model", o.sonar.model, "of the sonar")
-      ->check(CLI::IsMember(std::vector<std::string>(models.begin(), models.end())))
+      ->check(CLI::IsMember(names(mapping::sonar_model_names())))
       ->capture_default_str();
-  add_printed_option(command, o.sonar);
+  command.add_option("--laser-model", o.laser.model, "of the range finders")
+      ->check(CLI::IsMember(names(mapping::laser_model_names())))
+      ->capture_default_str();
+  command.add_flag("--printed", o.printed, "the models' formulas as printed instead of as resolved");
+  add_laser_weights_option(command, o.laser);
   add_sonar_weights_option(command, o.sonar);
   std::vector<std::string> rules;
   for (const mapping::NamedRule& rule : mapping::map_rules()) rules.emplace_back(rule.name);
@@ -264,6 +274,7 @@ void add_map(CLI::App& app) {
       "  credo map intel.log.gz --poses ego --out results/intel_ego                when all drifts\n"
       "  credo map intel.log.gz --poses ego --lines hough --out results/intel_hough\n"
       "  credo map datasets/room --sensors sonar --model calibrated                another sonar model\n"
+      "  credo map datasets/office --sensors range --laser-model calibrated        another laser model\n"
       "  credo map datasets/room --sensors sonar --model zhu --rule adaptive       and another rule");
   auto o = std::make_shared<MapOptions>();
   add_map_source_options(*command, o->from);
