@@ -59,9 +59,8 @@ class SequentialMapper {
         freshness_(params.freshness),
         grid_(params.georeference) {
     for (const sensors::SonarRing& ring : rig.sonar_rings) sonars_.push_back(sonar_model(ring, params.sonar));
-    const Li2006Laser laser(params.laser);
     for (const sensors::RangeFinder& finder : rig.range_finders)
-      scans_.emplace_back(finder, params.georeference, laser_tables(laser, finder, params.scan), params.scan);
+      scans_.emplace_back(finder, params.georeference, laser_tables(params.laser, finder, params.scan), params.scan);
   }
 
   /// \throws as Mapper::insert

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Credo Authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "mapping/judge_transducers.hpp"
+#include "mapping/judge_instruments.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,9 @@ struct Drive {
     path = sensors::MotionPath(rows);
   }
 
-  [[nodiscard]] std::vector<TransducerVerdict> judged() const { return judge_transducers(path, rig, sweeps); }
+  [[nodiscard]] std::vector<InstrumentVerdict> judged() const {
+    return judge_instruments(map_by_instrument(path, rig, {}, sweeps).maps);
+  }
 
  private:
   [[nodiscard]] float heard(const Pose2& from) const {
@@ -53,54 +55,54 @@ struct Drive {
 };
 
 void expect_found(const Drive& drive, std::size_t liar) {
-  const std::vector<TransducerVerdict> verdicts = drive.judged();
+  const std::vector<InstrumentVerdict> verdicts = drive.judged();
   ASSERT_EQ(verdicts.size(), 16u);
-  for (const TransducerVerdict& verdict : verdicts) {
-    const bool lies = verdict.transducer == static_cast<int>(liar);
+  for (const InstrumentVerdict& verdict : verdicts) {
+    const bool lies = verdict.instrument.transducer == static_cast<int>(liar);
     EXPECT_EQ(verdict.reliability < 0.5, lies)
-        << verdict.transducer << ": " << verdict.reliability << ", opposed " << verdict.opposed;
+        << verdict.instrument.transducer << ": " << verdict.reliability << ", opposed " << verdict.opposed;
   }
-  EXPECT_THAT(summary(verdicts), HasSubstr("1 of 16 transducers doubted; least reliable: transducer " +
+  EXPECT_THAT(summary(verdicts), HasSubstr("1 of 16 instruments doubted; least reliable: transducer " +
                                            std::to_string(liar) + " of ring 0"));
 }
 
-TEST(JudgeTransducers, FindsTheOneThatReadsShort) {
+TEST(JudgeInstruments, FindsTheOneThatReadsShort) {
   Drive drive;
   for (sensors::SonarSweep& sweep : drive.sweeps) sweep.ranges_m[5] *= 0.7F;
   expect_found(drive, 5);
 }
 
-TEST(JudgeTransducers, FindsTheOneThatIsStuck) {
+TEST(JudgeInstruments, FindsTheOneThatIsStuck) {
   Drive drive;
   for (sensors::SonarSweep& sweep : drive.sweeps) sweep.ranges_m[11] = 0.5F;
   expect_found(drive, 11);
 }
 
-TEST(JudgeTransducers, FindsTheOneThatReadsLong) {
+TEST(JudgeInstruments, FindsTheOneThatReadsLong) {
   Drive drive;
   for (sensors::SonarSweep& sweep : drive.sweeps) sweep.ranges_m[0] = 2.9F;
   expect_found(drive, 0);
 }
 
-TEST(JudgeTransducers, TrustsARingInOrder) {
-  for (const TransducerVerdict& verdict : Drive().judged()) {
-    EXPECT_GT(verdict.reliability, 0.5) << verdict.transducer;
+TEST(JudgeInstruments, TrustsARingInOrder) {
+  for (const InstrumentVerdict& verdict : Drive().judged()) {
+    EXPECT_GT(verdict.reliability, 0.5) << verdict.instrument.transducer;
     EXPECT_EQ(verdict.readings, 60);
     EXPECT_GT(verdict.cells, 100);
   }
 }
 
-TEST(JudgeTransducers, OneThatNoOtherSpeaksOfKeepsItsTrust) {
+TEST(JudgeInstruments, OneThatNoOtherSpeaksOfKeepsItsTrust) {
   Drive drive;
   drive.rig = rig_with(one_sonar());
   for (sensors::SonarSweep& sweep : drive.sweeps) sweep.ranges_m.resize(1);
-  const std::vector<TransducerVerdict> verdicts = drive.judged();
+  const std::vector<InstrumentVerdict> verdicts = drive.judged();
   ASSERT_EQ(verdicts.size(), 1u);
   EXPECT_EQ(verdicts[0].cells, 0);
   EXPECT_EQ(verdicts[0].reliability, 1.0);
 }
 
-TEST(JudgeTransducers, UndoesMostOfWhatALiarDoesToTheMap) {
+TEST(JudgeInstruments, UndoesMostOfWhatALiarDoesToTheMap) {
   Drive drive;
   for (sensors::SonarSweep& sweep : drive.sweeps) sweep.ranges_m[5] *= 0.7F;
   const auto occupied_in_the_room = [&](const std::vector<double>& transducers) {
@@ -112,13 +114,84 @@ TEST(JudgeTransducers, UndoesMostOfWhatALiarDoesToTheMap) {
       for (int x = 5; x < 75; ++x) sum += evidence::pignistic_occupied(map.at({x, y}).value());
     return sum;
   };
-  const std::vector<double> judged = reliabilities(drive.judged());
+  const std::vector<double> judged = reliabilities(drive.judged(), drive.rig).transducers;
   std::vector<double> without(16, 1.0), judged_alone(16, 1.0);
   without[5] = 0.0;
   judged_alone[5] = judged[5];
   const double harm = occupied_in_the_room({}) - occupied_in_the_room(without);
   ASSERT_GT(harm, 1.0);
   EXPECT_LT(occupied_in_the_room(judged_alone) - occupied_in_the_room(without), 0.5 * harm);
+}
+
+/// The same drive with range finders, seen from the same poses.
+struct DriveWithLasers : Drive {
+  std::vector<sensors::RangeScan> scans;
+
+  explicit DriveWithLasers(int finders) {
+    for (int finder = 0; finder < finders; ++finder) {
+      rig.range_finders.push_back(panoramic());
+      for (const auto& row : path.rows()) {
+        scans.push_back(scan_of_room(panoramic(), row.T_odom_base, 4.0, 3.0));
+        scans.back().time = row.time;
+        scans.back().sensor = finder;
+      }
+    }
+  }
+
+  [[nodiscard]] InstrumentMaps mapped(bool with_sonar) const {
+    return map_by_instrument(path, rig, scans, with_sonar ? sweeps : std::vector<sensors::SonarSweep>{});
+  }
+};
+
+TEST(JudgeInstruments, FindsTheRangeFinderThatReadsShort) {
+  DriveWithLasers drive(3);
+  for (sensors::RangeScan& scan : drive.scans)
+    if (scan.sensor == 1)
+      for (float& range_m : scan.ranges_m) range_m *= 0.8F;
+  const std::vector<InstrumentVerdict> verdicts = judge_instruments(drive.mapped(false).maps);
+  ASSERT_EQ(verdicts.size(), 3u);
+  for (const InstrumentVerdict& verdict : verdicts)
+    EXPECT_EQ(verdict.reliability < 0.5, verdict.instrument.finder == 1) << verdict.instrument.name();
+  EXPECT_THAT(summary(verdicts), HasSubstr("1 of 3 instruments doubted; least reliable: range finder 1"));
+  const SensorReliabilityParams found = reliabilities(verdicts, drive.rig);
+  EXPECT_LT(found.range_finders[1], 0.5);
+  EXPECT_EQ(found.transducers, std::vector<double>(16, 1.0));
+}
+
+TEST(JudgeInstruments, SonarTellsHowFarItOpposesALaser) {
+  DriveWithLasers drive(1);
+  const auto opposed = [&] { return judge_instruments(drive.mapped(true).maps).front().opposed; };
+  const double in_order = opposed();
+  for (sensors::RangeScan& scan : drive.scans)
+    for (float& range_m : scan.ranges_m) range_m *= 0.8F;
+  EXPECT_GT(opposed(), in_order + 0.05);
+}
+
+TEST(JudgeInstruments, TheSonarThatLiesIsTheLeastReliableBesideALaserToo) {
+  DriveWithLasers drive(1);
+  for (sensors::SonarSweep& sweep : drive.sweeps) sweep.ranges_m[5] *= 0.7F;
+  const std::vector<InstrumentVerdict> verdicts = judge_instruments(drive.mapped(true).maps);
+  EXPECT_THAT(summary(verdicts), HasSubstr("least reliable: transducer 5 of ring 0"));
+}
+
+TEST(InstrumentMaps, SumUpToTheMapOfAllToTheBit) {
+  const DriveWithLasers drive(2);
+  const InstrumentMaps apart = drive.mapped(true);
+  ASSERT_EQ(apart.maps.size(), 18u);
+  EXPECT_EQ(apart.maps[1].instrument.name(), "range finder 1");
+  EXPECT_EQ(apart.maps[4].instrument.name(), "transducer 2 of ring 0");
+  const TrajectoryMap together = map_along(drive.path, drive.rig, drive.scans, drive.sweeps);
+  EXPECT_EQ(apart.counts, together.counts);
+  EXPECT_EQ(apart.without_pose, together.without_pose);
+  grids::EvidentialGrid sum(together.grid.georeference());
+  for (const InstrumentMap& map : apart.maps) sum.merge(map.grid);
+  EXPECT_TRUE(sum == together.grid);
+}
+
+TEST(InstrumentMaps, RefusesReadingsThatAreNotOfTheRig) {
+  DriveWithLasers drive(1);
+  drive.scans.front().sensor = 7;
+  EXPECT_THROW(static_cast<void>(drive.mapped(false)), std::invalid_argument);
 }
 
 TEST(SensorReliability, OfZeroMapsNothingAndOfAHalfLess) {
