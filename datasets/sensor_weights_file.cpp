@@ -68,7 +68,7 @@ LaserWeights read_laser_weights(const std::filesystem::path& file, std::size_t c
   const CheckedValue half_width = keys.required("half_width");
   read_length(half_width, weights.half_width_m, weights.half_width_sigmas);
   if (weights.half_width_m > weights.free_margin_m || weights.half_width_sigmas > weights.free_margin_sigmas)
-    half_width.fail("may not be above free_margin, neither least nor sigmas");
+    half_width.fail("half_width may not be above free_margin, neither its least nor its sigmas");
   weights.free_weight = keys.required("free_weight").number({.low = 0.0, .high = kAnyWeight.high});
   weights.hit_weights = keys.required("hit_weights").numbers(count, kAnyWeight);
   return weights;

@@ -113,7 +113,7 @@ TEST_F(CompareCommand, ALaserLearnsFromADriveWhoseTruthIsKnown) {
     return credo(with + "m2").error;
   };
   EXPECT_THAT(spoilt("half_width", "half_width: {least: 3, sigmas: 0}"),
-              HasSubstr("weights.yaml:4: half_width: may not be above free_margin"));
+              HasSubstr("weights.yaml:4: half_width may not be above free_margin"));
   EXPECT_THAT(spoilt("free_weight", "free_weight: -1"), HasSubstr("weights.yaml:5"));
   EXPECT_THAT(spoilt("free_weight", "weight: 1"), HasSubstr("weights.yaml:5"));
   EXPECT_EQ(credo("map data --laser-model li2007").status, 2);
