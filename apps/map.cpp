@@ -208,6 +208,7 @@ nlohmann::ordered_json json_of(const std::vector<mapping::InstrumentVerdict>& ve
                    {"readings", v.readings},
                    {"shared_cells", v.cells},
                    {"opposed", v.opposed},
+                   {"judged_sweeps", v.judged},
                    {"reliability", v.reliability}});
   return all;
 }

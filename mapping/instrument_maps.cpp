@@ -24,6 +24,16 @@ std::vector<Reading> of_sensor(std::span<const Reading> readings, std::size_t se
   return result;
 }
 
+/// Scans with a pose, by what is new in them.
+double new_scans(const sensors::MotionPath& T_map_base, std::span<const sensors::RangeScan> scans,
+                 const TrajectoryMappingParams& params) {
+  const std::vector<double> shares = new_shares(T_map_base, scans, params);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    if (covers(T_map_base, scans[i].time, params.max_gap_s)) sum += shares[i];
+  return sum;
+}
+
 /// What one thread has mapped of a ring so far.
 struct RingWorker {
   FanPainter fans;
@@ -64,6 +74,7 @@ void add_ring(InstrumentMaps& result, std::size_t ring, const sensors::MotionPat
       InstrumentMap& map = worker.maps[static_cast<std::size_t>(reading.transducer)];
       worker.fans.paint(map.grid, reading.T_map_transducer, reading.range_m, reading.reliability);
       ++map.readings;
+      map.sweeps += shares[i];  // a power of a half: the sum is the same in any order
     }
   });
   RingWorker sum = worker_of(rig, ring, params.mapper);
@@ -71,6 +82,7 @@ void add_ring(InstrumentMaps& result, std::size_t ring, const sensors::MotionPat
     for (std::size_t i = 0; i < sum.maps.size(); ++i) {
       sum.maps[i].grid.merge(worker.maps[i].grid);
       sum.maps[i].readings += worker.maps[i].readings;
+      sum.maps[i].sweeps += worker.maps[i].sweeps;
     }
     result.counts += worker.counts;
     result.without_pose += worker.without_pose;
@@ -108,8 +120,10 @@ InstrumentMaps map_by_instrument(const sensors::MotionPath& T_map_base, const se
     done += count;
     result.counts += map.counts;
     result.without_pose += map.without_pose;
-    result.maps.push_back(
-        {{.finder = static_cast<int>(finder)}, std::move(map.grid), map.counts.echoes + map.counts.no_returns});
+    result.maps.push_back({{.finder = static_cast<int>(finder)},
+                           std::move(map.grid),
+                           map.counts.echoes + map.counts.no_returns,
+                           new_scans(T_map_base, own, params)});
   }
   for (std::size_t ring = 0; ring < rig.sonar_rings.size(); ++ring) {
     const std::vector<sensors::SonarSweep> own = of_sensor(sweeps, ring);

@@ -28,6 +28,7 @@ struct InstrumentMap {
   Instrument instrument;
   grids::EvidentialGrid grid;
   std::int64_t readings = 0;  ///< ranges, and inf, that were mapped
+  double sweeps = 0.0;  ///< or scans that they are of, those from one place counted as what is new in them (Freshness)
 };
 
 struct InstrumentMaps {

@@ -16,33 +16,37 @@ using grids::EvidentialGrid;
 constexpr double kSurely = 1e-6;  // keeps odds finite
 constexpr double kDoubted = 0.5;  // a reliability below is worth telling
 
-/// A sum of evidence, and how much of it is contradicted.
+/// A sum of evidence, how much of it is judged, and how much contradicted.
 struct Opposed {
-  double contradicted = 0.0, judged = 0.0;
+  double said = 0.0, judged = 0.0, contradicted = 0.0;
 
   void add(double evidence, double mass_for, double mass_against) {
+    said += evidence;
     contradicted += evidence * mass_against;
     judged += evidence * (mass_for + mass_against);
   }
   [[nodiscard]] double share() const { return judged > 0.0 ? contradicted / judged : 0.0; }
 };
 
-/// Fills in how far an instrument's contribution is opposed by the rest of the map that holds it.
-void judge(InstrumentVerdict& verdict, const EvidentialGrid& own, const EvidentialGrid& all) {
+/// How far an instrument's contribution is opposed by the rest of the map that holds it.
+InstrumentVerdict judge(const InstrumentMap& own, const EvidentialGrid& all) {
+  InstrumentVerdict verdict{.instrument = own.instrument, .readings = own.readings};
   Opposed occupied, empty;
-  for (const auto& [index, tile] : own.tiles()) {
+  for (const auto& [index, tile] : own.grid.tiles()) {
     for (int place = 0; place < grids::Tile::kCells; ++place) {
       const FixedLogCommonality said{tile.empty[place], tile.occupied[place], tile.unknown[place]};
       if (said == FixedLogCommonality{}) continue;
       const FixedLogCommonality others = all.at(grids::cell_of(index, place)) - said;
-      if (others == FixedLogCommonality{}) continue;
-      ++verdict.cells;
+      if (others != FixedLogCommonality{}) ++verdict.cells;
       const evidence::GridMass mass = evidence::normalised_masses(others.value());
       occupied.add(std::max(0.0, evidence::evidence_for_occupied(said.value())), mass.occupied, mass.empty);
       empty.add(std::max(0.0, evidence::evidence_for_empty(said.value())), mass.empty, mass.occupied);
     }
   }
   verdict.opposed = 0.5 * (occupied.share() + empty.share());
+  const double said = occupied.said + empty.said;
+  verdict.judged = said > 0.0 ? own.sweeps * (occupied.judged + empty.judged) / said : 0.0;
+  return verdict;
 }
 
 double odds_of_being_right(double opposed) {
@@ -50,7 +54,7 @@ double odds_of_being_right(double opposed) {
   return right / (1.0 - right);
 }
 
-/// Of the instruments of one kind, each against the median.
+/// Of the instruments of one kind: each against the median, and drawn towards full trust where little was judged.
 void set_reliabilities(std::vector<InstrumentVerdict>& verdicts, bool sonar) {
   const auto counts = [&](const InstrumentVerdict& verdict) {
     return verdict.cells > 0 && verdict.instrument.is_sonar() == sonar;
@@ -62,7 +66,10 @@ void set_reliabilities(std::vector<InstrumentVerdict>& verdicts, bool sonar) {
   const auto middle = odds.begin() + static_cast<std::ptrdiff_t>(odds.size() / 2);
   std::nth_element(odds.begin(), middle, odds.end());
   for (InstrumentVerdict& verdict : verdicts)
-    if (counts(verdict)) verdict.reliability = std::min(1.0, odds_of_being_right(verdict.opposed) / *middle);
+    if (counts(verdict)) {
+      const double seen = std::min(1.0, odds_of_being_right(verdict.opposed) / *middle);
+      verdict.reliability = (kTrustedSweeps + verdict.judged * seen) / (kTrustedSweeps + verdict.judged);
+    }
 }
 
 }  // namespace
@@ -72,10 +79,7 @@ std::vector<InstrumentVerdict> judge_instruments(std::span<const InstrumentMap> 
   if (maps.empty()) return verdicts;
   EvidentialGrid all(maps.front().grid.georeference());
   for (const InstrumentMap& map : maps) all.merge(map.grid);
-  for (const InstrumentMap& map : maps) {
-    verdicts.push_back({.instrument = map.instrument, .readings = map.readings});
-    judge(verdicts.back(), map.grid, all);
-  }
+  for (const InstrumentMap& map : maps) verdicts.push_back(judge(map, all));
   for (const bool sonar : {false, true}) set_reliabilities(verdicts, sonar);
   return verdicts;
 }

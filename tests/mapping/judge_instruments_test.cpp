@@ -84,6 +84,35 @@ TEST(JudgeInstruments, FindsTheOneThatReadsLong) {
   expect_found(drive, 0);
 }
 
+TEST(JudgeInstruments, TwoSweepsDoubtNobodyHoweverOpposed) {
+  for (const float range_m : {0.5F, 2.9F}) {
+    Drive drive;
+    drive.sweeps.resize(2);
+    drive.sweeps[1].ranges_m = drive.sweeps[0].ranges_m;
+    for (sensors::SonarSweep& sweep : drive.sweeps) sweep.ranges_m[11] = range_m;
+    for (const InstrumentVerdict& verdict : drive.judged()) {
+      EXPECT_LE(verdict.judged, 2.0);
+      EXPECT_GT(verdict.reliability, 0.7) << verdict.instrument.transducer << ", opposed " << verdict.opposed;
+    }
+  }
+}
+
+TEST(JudgeInstruments, ManySweepsFromOnePlaceTellAsMuchAsAFew) {
+  Drive drive;
+  const sensors::OdometryReading first = drive.path.rows().front();
+  std::vector<sensors::OdometryReading> rows = drive.path.rows();
+  for (sensors::OdometryReading& row : rows) row.T_odom_base = first.T_odom_base;
+  drive.path = sensors::MotionPath(rows);
+  for (sensors::SonarSweep& sweep : drive.sweeps) {
+    sweep.ranges_m = drive.sweeps.front().ranges_m;
+    sweep.ranges_m[11] = 0.5F;
+  }
+  for (const InstrumentVerdict& verdict : drive.judged()) {
+    EXPECT_LT(verdict.judged, 10.0);  // 1 / FreshnessParams::correlation
+    EXPECT_GT(verdict.reliability, 0.3) << verdict.instrument.transducer;
+  }
+}
+
 TEST(JudgeInstruments, TrustsARingInOrder) {
   for (const InstrumentVerdict& verdict : Drive().judged()) {
     EXPECT_GT(verdict.reliability, 0.5) << verdict.instrument.transducer;
@@ -99,6 +128,7 @@ TEST(JudgeInstruments, OneThatNoOtherSpeaksOfKeepsItsTrust) {
   const std::vector<InstrumentVerdict> verdicts = drive.judged();
   ASSERT_EQ(verdicts.size(), 1u);
   EXPECT_EQ(verdicts[0].cells, 0);
+  EXPECT_EQ(verdicts[0].judged, 0.0);
   EXPECT_EQ(verdicts[0].reliability, 1.0);
 }
 
