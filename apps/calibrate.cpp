@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/map_source.hpp"
 #include "apps/option_checks.hpp"
+#include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/dataset.hpp"
 #include "datasets/map_server.hpp"
@@ -28,7 +30,7 @@ struct CalibrateOptions {
   std::vector<std::string> datasets;
   int worlds = 0;
   std::uint64_t seed = 1;
-  std::string out;
+  OutputFile out;
 };
 
 /// Readings of one sensor and the true map.
@@ -75,10 +77,22 @@ void write(const std::string& file, const mapping::CalibratedLaserParams& laser,
                                 source);
 }
 
+/// What was learned from, in one line.
+std::string source_of(const CalibrateOptions& o, std::int64_t cells) {
+  const auto counted = [](std::size_t n, const char* one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); };
+  std::string from = o.datasets.empty() ? "" : counted(o.datasets.size(), "dataset");
+  if (o.worlds > 0) {
+    if (!from.empty()) from += " and ";
+    from += counted(static_cast<std::size_t>(o.worlds), "simulated building") + fmt::format(" from seed {}", o.seed);
+  }
+  return fmt::format("{} cells of {}", cells, from);
+}
+
 template <typename Calibration>
 void execute(const CalibrateOptions& o) {
   if (o.datasets.empty() && o.worlds == 0)
     throw std::runtime_error("nothing to learn from: name datasets with their true maps, or give --worlds");
+  refuse_older_file(o.out);
   const Interruptible interruptible;
   Calibration calibration;
   Progress progress("calibrating");
@@ -96,11 +110,10 @@ void execute(const CalibrateOptions& o) {
     evaluation::add_simulated_drive(calibration, o.seed + static_cast<std::uint64_t>(i));
     report();
   }
-  std::string source = fmt::format("{} cells of {} datasets", calibration.cells(), o.datasets.size());
-  if (o.worlds > 0) source += fmt::format(" and {} simulated buildings from seed {}", o.worlds, o.seed);
+  const std::string source = source_of(o, calibration.cells());
   const auto learned = about("calibration", [&] { return calibration.fit(); });
-  write(o.out, learned, source);
-  std::printf("weights: %s, from %s\n", o.out.c_str(), source.c_str());
+  write(o.out.path, learned, source);
+  std::printf("weights: %s, from %s\n", o.out.path.c_str(), source.c_str());
 }
 
 /// \param instrument  "a sonar ring"
@@ -114,7 +127,8 @@ CLI::App* add_calibration(CLI::App& calibrate, const std::string& name, const st
       ->check(number_in(0, 10'000))
       ->capture_default_str();
   command->add_option("--seed", o->seed, "of the first building")->check(any_seed())->capture_default_str();
-  command->add_option("-o,--out", o->out, "file for the weights")->check(a_path())->required();
+  command->add_option("-o,--out", o->out.path, "file for the weights")->check(a_path())->required();
+  add_force_option(*command, o->out, "a file");
   command->callback([o] { execute<Calibration>(*o); });
   return command;
 }

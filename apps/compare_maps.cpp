@@ -38,7 +38,8 @@ using nlohmann::ordered_json;
 
 struct MapsOptions {
   MapSource from;
-  std::string out, pictures;
+  OutputFile out;
+  std::string pictures;
   std::vector<std::string> models, laser_models, rules;
   SonarChoice sonar;  ///< but for the model
   LaserChoice laser;  ///< the same
@@ -222,6 +223,7 @@ void draw_maps(const fs::path& file, const std::vector<MapLine>& lines) {
 }
 
 void execute(const MapsOptions& o) {
+  refuse_older_file(o.out);
   const Interruptible interruptible;
   const datasets::OccupancyMap truth = true_map(o.from.source);
   const std::vector<datasets::TruthState> states = datasets::read_truth_states(o.from.source);
@@ -239,7 +241,7 @@ void execute(const MapsOptions& o) {
       progress.update(static_cast<double>(lines.size()) / static_cast<double>(models.size() * o.rules.size()));
     }
   if (pictures) draw_maps(pictures->path() / "maps.png", lines);
-  if (!o.out.empty()) results::write_text(o.out, csv_of(lines));
+  if (o.out.wanted()) results::write_text(o.out.path, csv_of(lines));
   if (pictures) pictures->commit();
   if (o.format.json()) {
     ordered_json all = ordered_json::array();
@@ -283,7 +285,8 @@ void add_compare_maps(CLI::App& compare) {
   command->add_option("--resolution", o->params.mapper.georeference.resolution_m, "side of a cell [m]")
       ->check(any_resolution())
       ->capture_default_str();
-  command->add_option("-o,--out", o->out, "file for the table as comma-separated values")->check(a_path());
+  command->add_option("-o,--out", o->out.path, "file for the table as comma-separated values")->check(a_path());
+  add_force_option(*command, o->out, "a table");
   command->add_option("--pictures", o->pictures, "a new folder for maps.png, all maps side by side")->check(a_path());
   add_format_option(*command, o->format);
   command->callback([o] { execute(*o); });

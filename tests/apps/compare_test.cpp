@@ -86,10 +86,24 @@ TEST_F(CompareCommand, MapsAreComparedOnTheSameReadings) {
   EXPECT_EQ(credo("compare maps data --rules pcr7").status, 2);
 }
 
+TEST_F(CompareCommand, AnOlderFileIsReplacedOnlyIfForced) {
+  ASSERT_EQ(credo("simulate demo --out data").status, 0);
+  for (const char* command : {"compare maps data --sensors sonar --models li2007 --rules dempster --out out.csv",
+                              "compare localizers data --out out.csv", "calibrate sonar data --out out.csv"}) {
+    write("out.csv", "older");
+    const Answer refused = credo(command);
+    EXPECT_EQ(refused.status, 1) << command;
+    EXPECT_THAT(refused.error, HasSubstr("out.csv: is there already")) << command;
+    EXPECT_EQ(read("out.csv"), "older") << command;
+    EXPECT_EQ(credo(std::string(command) + " --force").status, 0) << command;
+    EXPECT_NE(read("out.csv"), "older") << command;
+  }
+}
+
 TEST_F(CompareCommand, ASonarLearnsFromADriveWhoseTruthIsKnown) {
   ASSERT_EQ(credo("simulate demo --out data").status, 0);
   ASSERT_EQ(credo("calibrate sonar data --out weights.yaml").status, 0);
-  EXPECT_THAT(read("weights.yaml"), HasSubstr("of 1 datasets"));
+  EXPECT_THAT(read("weights.yaml"), HasSubstr(" cells of 1 dataset'"));
   EXPECT_EQ(credo("map data --sensors sonar --model calibrated --sonar-weights weights.yaml --out map").status, 0);
   EXPECT_THAT(read("map/config.yaml"), HasSubstr("model: calibrated"));
   write("weights.yaml", "format: credo-sonar-weights/1\nweights: [1, 2]\n");
@@ -101,10 +115,12 @@ TEST_F(CompareCommand, ASonarLearnsFromADriveWhoseTruthIsKnown) {
 TEST_F(CompareCommand, ALaserLearnsFromADriveWhoseTruthIsKnown) {
   ASSERT_EQ(credo("simulate demo --out data").status, 0);
   ASSERT_EQ(credo("calibrate laser data --out weights.yaml").status, 0);
-  EXPECT_THAT(read("weights.yaml"), AllOf(StartsWith("format: credo-laser-weights/1"), HasSubstr("of 1 datasets")));
+  EXPECT_THAT(read("weights.yaml"),
+              AllOf(StartsWith("format: credo-laser-weights/1"), HasSubstr(" cells of 1 dataset'")));
   const std::string with = "map data --sensors range --laser-model calibrated --laser-weights weights.yaml --out ";
   EXPECT_EQ(credo(with + "map").status, 0);
-  EXPECT_THAT(read("map/config.yaml"), AllOf(HasSubstr("model: calibrated"), HasSubstr("free_weight: ")));
+  EXPECT_THAT(read("map/config.yaml"),
+              AllOf(HasSubstr("model: calibrated"), HasSubstr("free_weight: ")));
   const std::string learned = read("weights.yaml");
   const auto spoilt = [&](const std::string& key, const std::string& line) {
     std::string text = learned;
