@@ -228,15 +228,26 @@ std::string changes_text(const Made& made) {
          " settled cells; credo cell says since when";
 }
 
-/// What would have no effect is refused, so that nobody takes it for granted.
-void require_meaning(const MapOptions& o) {
-  const std::string& model = o.sonar.model;
-  if (o.sonar.printed && (model == "su" || model == "zhu" || model == "calibrated"))
+void require_two_forms(const std::string& model) {
+  if (model == "su" || model == "zhu" || model == "calibrated")
     throw std::runtime_error("--printed: the model '" + model +
                              "' has one form only; those of Li X. and Li P. have two");
-  if (!o.sonar.weights.empty() && model != "calibrated")
-    throw std::runtime_error("--sonar-weights are of the model 'calibrated', not of '" + model +
-                             "': add --model calibrated");
+}
+
+void require_learned(const std::string& weights, const std::string& weights_option, const std::string& model,
+                     const std::string& model_option) {
+  if (!weights.empty() && model != "calibrated")
+    throw std::runtime_error(weights_option + ": these are of the model 'calibrated', not of '" + model + "': add " +
+                             model_option + " calibrated");
+}
+
+/// What would have no effect is refused, so that nobody takes it for granted.
+void require_meaning(const MapOptions& o) {
+  const auto mapped = [&](const char* sensor) { return std::ranges::count(o.from.sensors, sensor) > 0; };
+  if (o.printed && mapped("sonar")) require_two_forms(o.sonar.model);
+  if (o.printed && mapped("range")) require_two_forms(o.laser.model);
+  require_learned(o.sonar.weights, "--sonar-weights", o.sonar.model, "--model");
+  require_learned(o.laser.weights, "--laser-weights", o.laser.model, "--laser-model");
   if (o.rule.empty()) return;
   if (o.readout == "raw")
     throw std::runtime_error(
