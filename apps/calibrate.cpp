@@ -72,8 +72,8 @@ void write(const std::string& file, const mapping::CalibratedLaserParams& laser,
                                  .free_margin_sigmas = laser.free_margin.sigmas,
                                  .half_width_m = laser.half_width.least_m,
                                  .half_width_sigmas = laser.half_width.sigmas,
-                                 .free_weight = laser.free_weight,
-                                 .hit_weights = laser.hit_weights},
+                                 .summed = {laser.summed.free_weight, laser.summed.hit_weights},
+                                 .alone = {laser.alone.free_weight, laser.alone.hit_weights}},
                                 source);
 }
 

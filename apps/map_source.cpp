@@ -167,11 +167,11 @@ mapping::LaserParams laser_params(const LaserChoice& choice) {
   if (auto* li2006 = std::get_if<mapping::Li2006LaserParams>(&params)) li2006->variant = variant;
   if (auto* bayes = std::get_if<mapping::BayesLaserParams>(&params)) bayes->matched.variant = variant;
   if (auto* learned = std::get_if<mapping::CalibratedLaserParams>(&params); learned && !choice.weights.empty()) {
-    datasets::LaserWeights read = datasets::read_laser_weights(choice.weights, mapping::LaserKnots::kCount);
+    datasets::LaserModelFile read = datasets::read_laser_weights(choice.weights, mapping::LaserKnots::kCount);
     *learned = {.free_margin = {.least_m = read.free_margin_m, .sigmas = read.free_margin_sigmas},
                 .half_width = {.least_m = read.half_width_m, .sigmas = read.half_width_sigmas},
-                .free_weight = read.free_weight,
-                .hit_weights = std::move(read.hit_weights)};
+                .summed = {read.summed.free_weight, std::move(read.summed.hit_weights)},
+                .alone = {read.alone.free_weight, std::move(read.alone.hit_weights)}};
   }
   return params;
 }

@@ -20,17 +20,22 @@ namespace credo::datasets {
 void write_sonar_weights(const std::filesystem::path& file, std::span<const double> weights, const std::string& source);
 
 /// A calibrated laser model as a file keeps it (docs/dataset-format.md).
-struct LaserWeights {
+struct LaserModelFile {
+  /// Of evidence.
+  struct Weights {
+    double free_weight = 0.0;
+    std::vector<double> hit_weights;
+  };
+
   double free_margin_m = 0.0, free_margin_sigmas = 0.0;
   double half_width_m = 0.0, half_width_sigmas = 0.0;
-  double free_weight = 0.0;
-  std::vector<double> hit_weights;
+  Weights summed, alone;
 };
 
 /// \param count  of the weights of a hit that the model has
 /// \throws FormatError as read_sonar_weights
-[[nodiscard]] LaserWeights read_laser_weights(const std::filesystem::path& file, std::size_t count);
+[[nodiscard]] LaserModelFile read_laser_weights(const std::filesystem::path& file, std::size_t count);
 /// As write_sonar_weights.
-void write_laser_weights(const std::filesystem::path& file, const LaserWeights& weights, const std::string& source);
+void write_laser_weights(const std::filesystem::path& file, const LaserModelFile& model, const std::string& source);
 
 }  // namespace credo::datasets

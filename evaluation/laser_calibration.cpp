@@ -126,11 +126,17 @@ std::vector<LaserCalibration::Cell> cells_of(const TrueCells& truth, int empty_s
       if (!near && far_from_walls++ % empty_stride != 0) continue;
       cells.push_back({.at = {x, y},
                        .occupied = occupied,
+                       .near = near,
                        .count = near ? 1.0 : static_cast<double>(empty_stride),
                        .free = std::vector<float>(kMargins.size(), 0.0F),
                        .hit = std::vector<std::vector<LogisticRegression::Entry>>(kHalfWidths.size())});
     }
   return cells;
+}
+
+mapping::LaserWeights laser_weights(const LogisticRegression::Fit& fit) {
+  return {.free_weight = std::max(0.0, -fit.weights[kFreeWeight]),
+          .hit_weights = {fit.weights.begin(), fit.weights.begin() + LaserKnots::kCount}};
 }
 
 bool was_seen(const LaserCalibration::Cell& cell) {
@@ -144,6 +150,7 @@ LaserCalibration::LaserCalibration(const LaserCalibrationParams& params) : param
   const evidence::ParameterCheck check("laser calibration: ");
   check.positive("resolution_m", params.resolution_m);
   check.at_least("empty_stride", params.empty_stride, 1);
+  check.at_least("alone_stride", params.alone_stride, 1);
   static_cast<void>(LogisticRegression(1, params.regression));  // checks its own
 }
 
@@ -161,6 +168,14 @@ void LaserCalibration::add(const sensors::MotionPath& T_map_base, const sensors:
         cells[i].hit[k].push_back({static_cast<std::uint32_t>(weight), static_cast<float>(times)});
       });
   std::erase_if(cells, [](const Cell& cell) { return !was_seen(cell); });
+  SingleScans single{.T_map_base = T_map_base,
+                     .finder = finder,
+                     .scans = {},
+                     .first_cell = cells_.size(),
+                     .last_cell = cells_.size() + cells.size()};
+  const auto stride = static_cast<std::size_t>(params_.alone_stride);
+  for (std::size_t i = 0; i < scans.size(); i += stride) single.scans.push_back(scans[i]);
+  single_scans_.push_back(std::move(single));
   cells_.insert(cells_.end(), std::make_move_iterator(cells.begin()), std::make_move_iterator(cells.end()));
 }
 
@@ -171,6 +186,27 @@ LogisticRegression::Fit LaserCalibration::fit_with(std::size_t margin, std::size
     entries = cell.hit[half_width];
     if (cell.free[margin] > 0.0F) entries.push_back({static_cast<std::uint32_t>(kFreeWeight), cell.free[margin]});
     regression.add(entries, cell.occupied, cell.count);
+  }
+  return regression.fit();
+}
+
+/// A row is what one scan says of one cell beside a wall's face. Of all cells in a scan nearly all are empty, which one
+/// would find in the weights, as the regression has no constant; there, about as many are occupied.
+LogisticRegression::Fit LaserCalibration::fit_alone(std::size_t margin, std::size_t half_width) const {
+  LogisticRegression regression(LaserKnots::kCount + 1, params_.regression);
+  std::vector<std::vector<LogisticRegression::Entry>> rows;
+  for (const SingleScans& drive : single_scans_) {
+    const auto cells = std::span(cells_).subspan(drive.first_cell, drive.last_cell - drive.first_cell);
+    for (const sensors::RangeScan& scan : drive.scans) {
+      rows.assign(cells.size(), {});
+      const Scans one{drive.T_map_base, drive.finder, {&scan, 1}, {1.0}, {.resolution_m = params_.resolution_m}};
+      for (std::size_t weight = 0; weight <= LaserKnots::kCount; ++weight)
+        one.count({kMargins[margin], kHalfWidths[half_width], weight}, cells, [&](std::size_t i, double times) {
+          rows[i].push_back({static_cast<std::uint32_t>(weight), static_cast<float>(times)});
+        });
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        if (cells[i].near && !rows[i].empty()) regression.add(rows[i], cells[i].occupied, cells[i].count);
+    }
   }
   return regression.fit();
 }
@@ -194,12 +230,10 @@ CalibratedLaserParams LaserCalibration::fit() const {
     for (std::size_t k = 0; k < kHalfWidths.size(); ++k) try_with(margin, k);
     for (std::size_t k = 0; k < kMargins.size(); ++k) try_with(k, half_width);
   } while (best.loss < before);
-  const double free_weight = std::max(0.0, -best.weights[kFreeWeight]);
-  best.weights.resize(LaserKnots::kCount);
   return {.free_margin = kMargins[margin],
           .half_width = kHalfWidths[half_width],
-          .free_weight = free_weight,
-          .hit_weights = std::move(best.weights)};
+          .summed = laser_weights(best),
+          .alone = laser_weights(fit_alone(margin, half_width))};
 }
 
 MapDrive laser_drive(std::uint64_t seed, const sim::RandomWorldParams& params, double sigma_m) {

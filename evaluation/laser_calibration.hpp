@@ -19,11 +19,13 @@ struct LaserCalibrationParams {
   double resolution_m = 0.05;  ///< side of the cells that are learned from
   int empty_stride = 4;  ///< of the empty cells far from walls, which are many, each so-manieth is taken, and counts as
                          ///< often
+  int alone_stride = 25;  ///< each so-manieth scan is taken alone, too
   LogisticParams regression;
 };
 
 /// Learns mapping::CalibratedLaser from drives whose true map is known: what the ScanPainter can paint, by what it
 /// painted. How often each weight counts in a cell is told by maps of the drive that are made with one weight alone.
+/// What a reading is worth by itself is learned from maps of single scans, beside walls.
 class LaserCalibration {
  public:
   /// \throws std::invalid_argument if a parameter is out of its range
@@ -38,23 +40,36 @@ class LaserCalibration {
   [[nodiscard]] std::int64_t cells() const { return static_cast<std::int64_t>(cells_.size()); }
 
   /// The weights and lengths under which the states of all cells are likeliest: a logistic regression for each pair of
-  /// lengths, one length improved after the other. \throws std::invalid_argument if no cell was learned from
+  /// lengths, one length improved after the other; with these lengths another one, whose rows are the cells of single
+  /// scans that are beside walls, for the weights of a reading by itself. \throws std::invalid_argument if no cell was
+  /// learned from
   [[nodiscard]] mapping::CalibratedLaserParams fit() const;
 
   /// How often the weights count in a cell.
   struct Cell {
     grids::CellIndex at;
     bool occupied = false;
+    bool near = false;                                        ///< to cells of the other kind, within kWallTolerance
     double count = 1.0;                                       ///< how often the cell does
     std::vector<float> free;                                  ///< for each margin that is tried
     std::vector<std::vector<LogisticRegression::Entry>> hit;  ///< for each half-width that is
   };
 
  private:
+  /// Scans of a drive that are taken alone, and the cells of the building.
+  struct SingleScans {
+    sensors::MotionPath T_map_base;
+    sensors::RangeFinder finder;
+    std::vector<sensors::RangeScan> scans;
+    std::size_t first_cell = 0, last_cell = 0;  ///< of cells_, the last one not among them
+  };
+
   [[nodiscard]] LogisticRegression::Fit fit_with(std::size_t margin, std::size_t half_width) const;
+  [[nodiscard]] LogisticRegression::Fit fit_alone(std::size_t margin, std::size_t half_width) const;
 
   LaserCalibrationParams params_;
   std::vector<Cell> cells_;
+  std::vector<SingleScans> single_scans_;
 };
 
 /// A drive of a range finder, alone, through a building that is drawn from a random seed.

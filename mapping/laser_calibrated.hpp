@@ -25,11 +25,25 @@ struct NoiseLength {
   [[nodiscard]] double of(double sigma_m) const { return std::max(least_m, sigmas * sigma_m); }
 };
 
-struct CalibratedLaserParams {
-  NoiseLength free_margin;          ///< before the reading free space ends
-  NoiseLength half_width;           ///< of the occupied interval, at most the margin
+/// What a reading is worth.
+struct LaserWeights {
   double free_weight = 0.0;         ///< of evidence for "empty"
   std::vector<double> hit_weights;  ///< for "occupied", LaserKnots::kCount of them; below 0 is none
+};
+
+/// How a cell takes a reading in: with all others that it has had, which repeat each other's errors, or by itself, as
+/// rules do that forget (CellRule::kForgets).
+enum class ReadingsTaken { kSummed, kAlone };
+
+struct CalibratedLaserParams {
+  NoiseLength free_margin;  ///< before the reading free space ends
+  NoiseLength half_width;   ///< of the occupied interval, at most the margin
+  LaserWeights summed;      ///< of a reading among all of a cell
+  LaserWeights alone;       ///< of a reading by itself
+
+  [[nodiscard]] const LaserWeights& weights(ReadingsTaken taken) const {
+    return taken == ReadingsTaken::kAlone ? alone : summed;
+  }
 };
 
 /// What `credo calibrate laser` learned in simulated buildings, with cells of 5 cm.
@@ -39,26 +53,30 @@ struct CalibratedLaserParams {
 /// wherever space is free, and by range and sigma where it is occupied. The weights are those of a logistic regression
 /// on all readings of a cell, which is Dempster's rule on simple masses (Denoeux 2019, "Logistic regression, neural
 /// networks and Dempster-Shafer theory"), so that readings which repeat each other's errors count as what they are
-/// worth together. Where free space ends and how wide a hit is are those under which the truth is likeliest.
+/// worth together. Where free space ends and how wide a hit is are those under which the truth is likeliest. A rule
+/// that forgets holds a few readings only, which are worth more each: its weights are those of a regression on cells in
+/// single scans.
 class CalibratedLaser {
  public:
   /// \throws std::invalid_argument if there are not LaserKnots::kCount finite weights, a weight or length is negative
   ///         (that of a hit may be), or the half-width exceeds the margin
-  explicit CalibratedLaser(const CalibratedLaserParams& params = default_calibrated_laser());
+  explicit CalibratedLaser(const CalibratedLaserParams& params = default_calibrated_laser(),
+                           ReadingsTaken taken = ReadingsTaken::kSummed);
 
   [[nodiscard]] evidence::GridMass free_mass() const;
   [[nodiscard]] evidence::GridMass hit_mass() const;
   [[nodiscard]] double free_margin(double reading_m, const sensors::RangeNoise& noise) const {
-    return params_.free_margin.of(noise.sigma(reading_m));
+    return free_margin_.of(noise.sigma(reading_m));
   }
   [[nodiscard]] double half_width(double reading_m, const sensors::RangeNoise& noise) const {
-    return params_.half_width.of(noise.sigma(reading_m));
+    return half_width_.of(noise.sigma(reading_m));
   }
   [[nodiscard]] double hit_share(double reading_m, const sensors::RangeNoise& noise) const;
   [[nodiscard]] double reliability() const;
 
  private:
-  CalibratedLaserParams params_;
+  NoiseLength free_margin_, half_width_;
+  LaserWeights weights_;
   double greatest_weight_ = 0.0;  // of a hit
 };
 static_assert(LaserModel<CalibratedLaser>);

@@ -17,18 +17,20 @@ static_assert(kLaserNames.size() == std::variant_size_v<LaserParams>);
 struct TableMaker {
   const sensors::RangeFinder& finder;
   const ScanParams& params;
+  ReadingsTaken taken;
 
   LaserTables operator()(const Li2006LaserParams& p) const { return laser_tables(Li2006Laser(p), finder, params); }
   LaserTables operator()(const BayesLaserParams& p) const { return laser_tables(BayesLaser(p), finder, params); }
   LaserTables operator()(const CalibratedLaserParams& p) const {
-    return laser_tables(CalibratedLaser(p), finder, params);
+    return laser_tables(CalibratedLaser(p, taken), finder, params);
   }
 };
 
 }  // namespace
 
-LaserTables laser_tables(const LaserParams& laser, const sensors::RangeFinder& range_finder, const ScanParams& params) {
-  return std::visit(TableMaker{range_finder, params}, laser);
+LaserTables laser_tables(const LaserParams& laser, const sensors::RangeFinder& range_finder, const ScanParams& params,
+                         ReadingsTaken taken) {
+  return std::visit(TableMaker{range_finder, params, taken}, laser);
 }
 
 std::string_view name_of(const LaserParams& params) { return kLaserNames[params.index()]; }

@@ -16,9 +16,10 @@ namespace credo::mapping {
 /// A laser model by its parameters.
 using LaserParams = std::variant<Li2006LaserParams, BayesLaserParams, CalibratedLaserParams>;
 
+/// \param taken  how the cells take the readings in; only a model that was learned makes a difference
 /// \throws std::invalid_argument if a parameter is out of its range.
 [[nodiscard]] LaserTables laser_tables(const LaserParams& laser, const sensors::RangeFinder& range_finder,
-                                       const ScanParams& params);
+                                       const ScanParams& params, ReadingsTaken taken = ReadingsTaken::kSummed);
 
 /// li2006, bayes, calibrated.
 [[nodiscard]] std::string_view name_of(const LaserParams& params);

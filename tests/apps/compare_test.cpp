@@ -120,7 +120,7 @@ TEST_F(CompareCommand, ALaserLearnsFromADriveWhoseTruthIsKnown) {
   const std::string with = "map data --sensors range --laser-model calibrated --laser-weights weights.yaml --out ";
   EXPECT_EQ(credo(with + "map").status, 0);
   EXPECT_THAT(read("map/config.yaml"),
-              AllOf(HasSubstr("model: calibrated"), HasSubstr("free_weight: ")));
+              AllOf(HasSubstr("model: calibrated"), HasSubstr("alone:"), HasSubstr("free_weight: ")));
   const std::string learned = read("weights.yaml");
   const auto spoilt = [&](const std::string& key, const std::string& line) {
     std::string text = learned;
@@ -130,8 +130,9 @@ TEST_F(CompareCommand, ALaserLearnsFromADriveWhoseTruthIsKnown) {
   };
   EXPECT_THAT(spoilt("half_width", "half_width: {least: 3, sigmas: 0}"),
               HasSubstr("weights.yaml:4: half_width may not be above free_margin"));
-  EXPECT_THAT(spoilt("free_weight", "free_weight: -1"), HasSubstr("weights.yaml:5"));
-  EXPECT_THAT(spoilt("free_weight", "weight: 1"), HasSubstr("weights.yaml:5"));
+  EXPECT_THAT(spoilt("free_weight", "free_weight: -1"), HasSubstr("weights.yaml:6"));
+  EXPECT_THAT(spoilt("free_weight", "weight: 1"), HasSubstr("weights.yaml:6"));
+  EXPECT_THAT(spoilt("alone", "by_itself:"), HasSubstr("by_itself"));
   EXPECT_EQ(credo("map data --laser-model li2007").status, 2);
   EXPECT_THAT(credo("calibrate laser --out none.yaml").error, HasSubstr("nothing to learn from"));
 }

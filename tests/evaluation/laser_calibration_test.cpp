@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "mapping/laser_choice.hpp"
 
 namespace credo::evaluation {
@@ -33,10 +35,24 @@ TEST(LaserCalibration, WhatIsLearnedInSomeBuildingsMapsAnotherBetterThanThePaper
   EXPECT_GT(score_of(mapping::laser_params("calibrated"), other).accuracy(), 0.98);  // the weights that come with it
 }
 
+TEST(LaserCalibration, AReadingByItselfIsWorthMoreThanOneOfMany) {
+  LaserCalibration calibration;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) add_simulated_drive(calibration, seed, kShort);
+  const auto sum = [](const std::vector<double>& weights) {
+    return std::accumulate(weights.begin(), weights.end(), 0.0);
+  };
+  const mapping::CalibratedLaserParams learned = calibration.fit(), shipped = mapping::default_calibrated_laser();
+  for (const mapping::CalibratedLaserParams& laser : {learned, shipped}) {
+    EXPECT_GT(laser.alone.free_weight, laser.summed.free_weight);
+    EXPECT_GT(sum(laser.alone.hit_weights), sum(laser.summed.hit_weights));
+  }
+}
+
 TEST(LaserCalibration, NothingIsLearnedFromNothing) {
   EXPECT_THROW(static_cast<void>(LaserCalibration{}.fit()), std::invalid_argument);
   EXPECT_THROW(LaserCalibration({.regression = {.ridge = 0.0}}), std::invalid_argument);
   EXPECT_THROW(LaserCalibration({.empty_stride = 0, .regression = {}}), std::invalid_argument);
+  EXPECT_THROW(LaserCalibration({.alone_stride = 0, .regression = {}}), std::invalid_argument);
 }
 
 }  // namespace

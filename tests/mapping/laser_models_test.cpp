@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mapping/cell_rules.hpp"
+#include "mapping/changing_fold.hpp"
 #include "mapping/laser_choice.hpp"
+#include "mapping/sequential_mapper.hpp"
 #include "mapping/simple_mass.hpp"
 #include "mapping/sonar_choice.hpp"
 #include "tests/mapping/readings.hpp"
@@ -97,11 +100,15 @@ TEST(BayesSonar, OneReadingHasTheProbabilityThatTheMatchedMassesHaveAsPignisticO
   EXPECT_EQ(bayes.no_echo().reach(), evidential.no_echo().reach());
 }
 
+LaserWeights weights_of(double free, double hit) {
+  return {.free_weight = free, .hit_weights = std::vector<double>(LaserKnots::kCount, hit)};
+}
+
 TEST(CalibratedLaser, WeightsAreWeightsOfEvidence) {
   CalibratedLaserParams params{.free_margin = {.least_m = 0.05, .sigmas = 2.0},
                                .half_width = {.least_m = 0.02, .sigmas = 1.0},
-                               .free_weight = 0.4,
-                               .hit_weights = std::vector<double>(LaserKnots::kCount, 0.7)};
+                               .summed = weights_of(0.4, 0.7),
+                               .alone = weights_of(1.5, 1.2)};
   const CalibratedLaser model(params);
   EXPECT_NEAR(-std::log(free(model).unknown), 0.4, 1e-12);
   EXPECT_EQ(free(model).occupied, 0.0);
@@ -111,9 +118,63 @@ TEST(CalibratedLaser, WeightsAreWeightsOfEvidence) {
   EXPECT_DOUBLE_EQ(model.free_margin(4.0, kFlight), 0.05);
   EXPECT_DOUBLE_EQ(model.half_width(1.0, kFlight), 0.02);
 
-  params.hit_weights.back() = -3.0;  // of the noisiest and farthest: no evidence, rather than evidence against
+  params.summed.hit_weights.back() = -3.0;  // of the noisiest and farthest: no evidence, rather than evidence against
   EXPECT_EQ(CalibratedLaser(params).hit_share(12.0, {.sigma_0_m = 0.1, .k_per_m = 0.0}), 0.0);
   EXPECT_NEAR(-std::log(hit(CalibratedLaser(params), 1.0, kFlight).unknown), 0.7, 1e-12);
+
+  const CalibratedLaser alone(params, ReadingsTaken::kAlone);
+  EXPECT_NEAR(-std::log(free(alone).unknown), 1.5, 1e-12);
+  EXPECT_NEAR(-std::log(hit(alone, 1.3, kFlight).unknown), 1.2, 1e-12);
+  EXPECT_EQ(alone.free_margin(4.0, kTriangulation), model.free_margin(4.0, kTriangulation));
+}
+
+/// What the laser says of the cell that it hits at 6 m, and of one before it, in one scan.
+template <CellRule Rule>
+std::pair<GridMass, GridMass> after_one_scan(const MapperParams& params) {
+  SequentialMapper<Rule> mapper(rig_with(panoramic()), params);
+  const Pose2 pose{2.0, 1.5, 0.0};
+  mapper.insert(certain(pose), scan_of_room(panoramic(), pose, 6.01, 3.0));
+  const grids::MassMap masses = mapper.masses();
+  return {masses.at({120, 30}), masses.at({60, 30})};
+}
+
+TEST(CalibratedLaser, ARuleThatForgetsTakesWhatAReadingIsWorthByItself) {
+  MapperParams params;
+  params.laser = CalibratedLaserParams{.free_margin = {.least_m = 0.05, .sigmas = 0.0},
+                                       .half_width = {.least_m = 0.05, .sigmas = 0.0},
+                                       .summed = weights_of(0.4, 0.7),
+                                       .alone = weights_of(1.5, 1.2)};
+  const auto [summed_hit, summed_free] = after_one_scan<DempsterFold>(params);
+  const auto [alone_hit, alone_free] = after_one_scan<DsmhFold>(params);
+  EXPECT_NEAR(-std::log(summed_hit.unknown), 0.7, 1e-3);
+  EXPECT_NEAR(-std::log(summed_free.unknown), 0.4, 1e-3);
+  EXPECT_NEAR(-std::log(alone_hit.unknown), 1.2, 1e-3);
+  EXPECT_NEAR(-std::log(alone_free.unknown), 1.5, 1e-3);
+}
+
+TEST(CalibratedLaser, WhatChangesIsFollowedWithinThreeScans) {
+  MapperParams params;
+  params.laser = default_calibrated_laser();
+  const sensors::Rig rig = rig_with(panoramic());
+  SequentialMapper<ChangingFold> mapper(rig, params);
+  const Pose2 pose{2.0, 1.5, 0.0};
+  sensors::Timestamp time = 0;
+  const auto scan = [&](int times, double width_m) {
+    for (int i = 0; i < times; ++i) {
+      sensors::RangeScan one = scan_of_room(panoramic(), pose, width_m, 3.0);
+      one.time = time += sensors::from_seconds(0.2);
+      mapper.insert(certain(pose), one);
+    }
+  };
+  const auto pignistic = [&](int x) { return pignistic_of(mapper.masses().at({x, 30})); };
+  scan(20, 6.01);
+  ASSERT_LT(pignistic(80), 0.1);
+  ASSERT_GT(pignistic(120), 0.9);
+  scan(3, 4.01);  // a screen stands in the room
+  EXPECT_GT(pignistic(80), 0.9);
+  EXPECT_GT(pignistic(120), 0.9);
+  scan(3, 6.01);  // and is gone
+  EXPECT_LT(pignistic(80), 0.1);
 }
 
 TEST(CalibratedLaser, RefusesWhatCannotBe) {
@@ -122,9 +183,10 @@ TEST(CalibratedLaser, RefusesWhatCannotBe) {
     spoil(params);
     EXPECT_THROW(CalibratedLaser{params}, std::invalid_argument);
   };
-  refused([](auto& params) { params.hit_weights.pop_back(); });
-  refused([](auto& params) { params.hit_weights[3] = std::nan(""); });
-  refused([](auto& params) { params.free_weight = -0.1; });
+  refused([](auto& params) { params.summed.hit_weights.pop_back(); });
+  refused([](auto& params) { params.alone.hit_weights.pop_back(); });
+  refused([](auto& params) { params.summed.hit_weights[3] = std::nan(""); });
+  refused([](auto& params) { params.alone.free_weight = -0.1; });
   refused([](auto& params) { params.half_width.least_m = params.free_margin.least_m + 0.01; });
   refused([](auto& params) { params.half_width.sigmas = params.free_margin.sigmas + 0.5; });
   refused([](auto& params) { params.half_width.least_m = 0.0; });
