@@ -10,7 +10,7 @@
 
 namespace credo::datasets {
 
-/// Reads the weights of a calibrated sonar model (docs/dataset-format.md).
+/// Reads the weights of a calibrated sonar model (docs/dataset-format.md, "Weights of sensor models").
 /// \param count  that the model has
 /// \throws FormatError with file and line: another number of weights, one that is not finite, an unknown key
 [[nodiscard]] std::vector<double> read_sonar_weights(const std::filesystem::path& file, std::size_t count);
@@ -19,7 +19,7 @@ namespace credo::datasets {
 /// \throws std::runtime_error if the file cannot be written
 void write_sonar_weights(const std::filesystem::path& file, std::span<const double> weights, const std::string& source);
 
-/// A calibrated laser model as a file keeps it (docs/dataset-format.md).
+/// A calibrated laser model as a file keeps it (docs/dataset-format.md, "Weights of sensor models").
 struct LaserModelFile {
   /// Of evidence.
   struct Weights {
