@@ -41,7 +41,7 @@ using nlohmann::ordered_json;
 
 struct LocalizersOptions {
   std::vector<std::string> datasets;
-  std::string out;       ///< empty: none
+  OutputFile out;
   std::string pictures;  ///< empty: none
   std::uint64_t seed = 1;
   OutputFormat format;
@@ -266,6 +266,7 @@ void print_tables(const Tables& all, const LocalizersOptions& options) {
 }
 
 void execute(const LocalizersOptions& options) {
+  refuse_older_file(options.out);
   const Interruptible interruptible;
   std::optional<datasets::StagedFolder> pictures;
   if (!options.pictures.empty()) pictures.emplace(options.pictures, refuse_older_pictures);
@@ -287,11 +288,11 @@ void execute(const LocalizersOptions& options) {
                          picture(dataset, all));
   }
   if (options.datasets.size() > 1) tables.add("all together", all, total);
-  if (!options.out.empty()) {
+  if (options.out.wanted()) {
     std::string csv = evaluation::localizer_csv_header();
     for (std::size_t t = 0; t < tables.tables.size(); ++t)
       csv += evaluation::to_csv(tables.titles[t], tables.tables[t]);
-    results::write_text(options.out, csv);
+    results::write_text(options.out.path, csv);
   }
   if (pictures) pictures->commit();
   print_tables(tables, options);
@@ -310,7 +311,8 @@ void add_compare_localizers(CLI::App& compare) {
   command->add_option("DATASET", options->datasets, "folders with a floor plan, an initial pose and a ground truth")
       ->check(a_path())
       ->required();
-  command->add_option("-o,--out", options->out, "file for the table as comma-separated values")->check(a_path());
+  command->add_option("-o,--out", options->out.path, "file for the table as comma-separated values")->check(a_path());
+  add_force_option(*command, options->out, "a table");
   command->add_option("--pictures", options->pictures, "a new folder for a picture of the errors of each dataset")
       ->check(a_path());
   command->add_option("--seed", options->seed, "of the particles and of the oracle's starts")

@@ -37,12 +37,23 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 struct MapsOptions {
-  MapSource from{.source = {}, .poses = {}, .sensors = {"sonar"}};
-  std::string out, pictures;
-  std::vector<std::string> models, rules;
+  MapSource from;
+  OutputFile out;
+  std::string pictures;
+  std::vector<std::string> models, laser_models, rules;
   SonarChoice sonar;  ///< but for the model
+  LaserChoice laser;  ///< the same
   mapping::TrajectoryMappingParams params;
   OutputFormat format;
+};
+
+constexpr const char* kPrintedLaser = "li2006_printed";
+
+/// A model of one kind of sensor, and its readings.
+struct SensorModel {
+  std::string name;
+  MapPart part;
+  mapping::TrajectoryMappingParams params;
 };
 
 /// One line of the table.
@@ -59,24 +70,54 @@ std::vector<std::string> all_models() {
   return {names.begin(), names.end()};
 }
 
+std::vector<std::string> all_laser_models() {
+  std::vector<std::string> names{kPrintedLaser};
+  for (const std::string_view name : mapping::laser_model_names()) names.emplace_back(name);
+  return names;
+}
+
 std::vector<std::string> all_rules() {
   std::vector<std::string> names;
   for (const mapping::NamedRule& rule : mapping::map_rules()) names.emplace_back(rule.name);
   return names;
 }
 
-MapLine map_with(const MapPart& part, const MapsOptions& o, const std::string& model, const std::string& rule,
-                 const datasets::OccupancyMap& truth, std::span<const datasets::TruthState> states) {
-  mapping::TrajectoryMappingParams params = o.params;
-  SonarChoice sonar = o.sonar;
-  sonar.model = model;
-  params.mapper.sonar = sonar_params(sonar, params.mapper.georeference.resolution_m);
+/// Each model of the sonar with the sonar's readings alone, then those of the range finders with theirs.
+std::vector<SensorModel> sensor_models(const MapPart& part, const MapsOptions& o) {
+  std::vector<SensorModel> models;
+  if (!part.sweeps.empty()) {
+    MapPart of_sonar = part;
+    of_sonar.scans.clear();
+    for (const std::string& name : o.models) {
+      models.push_back({name, of_sonar, o.params});
+      SonarChoice sonar = o.sonar;
+      sonar.model = name;
+      models.back().params.mapper.sonar = sonar_params(sonar, o.params.mapper.georeference.resolution_m);
+    }
+  }
+  if (part.scans.empty()) return models;
+  MapPart of_laser = part;
+  of_laser.sweeps.clear();
+  for (const std::string& name : o.laser_models) {
+    models.push_back({"laser " + name, of_laser, o.params});
+    LaserChoice laser = o.laser;
+    laser.printed = name == kPrintedLaser;
+    laser.model = laser.printed ? "li2006" : name;
+    models.back().params.mapper.laser = laser_params(laser);
+  }
+  return models;
+}
+
+MapLine map_with(const SensorModel& model, const std::string& rule, const datasets::OccupancyMap& truth,
+                 std::span<const datasets::TruthState> states) {
+  const MapPart& part = model.part;
+  const mapping::TrajectoryMappingParams& params = model.params;
   const auto begin = std::chrono::steady_clock::now();
   mapping::RuleMap map = mapping::map_along(part.path, part.rig, part.scans, part.sweeps, params,
                                             mapping::map_rule(rule).rule, [](double) { Interruptible::check(); });
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   const evaluation::MapScore score = evaluation::map_score(map.map, truth);
-  MapLine line{model, rule, std::move(map), score, took.count(), std::nullopt};
+  MapLine line{model.name, rule, std::move(map), score, took.count(), std::nullopt};
   if (!states.empty() && !part.scans.empty())
     line.changes = evaluation::change_score(part.path, part.rig, part.scans, states, params,
                                             mapping::map_rule(rule).rule, [](double) { Interruptible::check(); });
@@ -93,12 +134,12 @@ datasets::OccupancyMap true_map(const std::string& source) {
 }
 
 std::string text_of(const std::vector<MapLine>& lines) {
-  std::string text = fmt::format("{:<8} {:<14} {:>8} {:>9} {:>9} {:>7} {:>9} {:>9} {:>10} {:>11} {:>10} {:>9}\n",
+  std::string text = fmt::format("{:<20} {:<14} {:>8} {:>9} {:>9} {:>7} {:>9} {:>9} {:>10} {:>11} {:>10} {:>9}\n",
                                  "model", "rule", "decided", "of those", "accuracy", "Brier", "log loss", "conflict",
                                  "ignorance", "contour cm", "missed cm", "time ms");
   for (const MapLine& l : lines)
     text += fmt::format(
-        "{:<8} {:<14} {:>7.2f}% {:>8.2f}% {:>8.2f}% {:>7.4f} {:>9.4f} {:>9.4f} {:>10.4f} {:>11.1f} "
+        "{:<20} {:<14} {:>7.2f}% {:>8.2f}% {:>8.2f}% {:>7.4f} {:>9.4f} {:>9.4f} {:>10.4f} {:>11.1f} "
         "{:>10.1f} {:>9.1f}\n",
         l.model, l.rule, 100.0 * l.score.decided_share(), 100.0 * l.score.accuracy_of_decided(),
         100.0 * l.score.accuracy(), l.score.brier, l.score.log_loss, l.score.conflict, l.score.ignorance,
@@ -112,12 +153,12 @@ std::string changes_text(const std::vector<MapLine>& lines) {
   for (const MapLine& l : lines) {
     if (!l.changes) continue;
     if (text.empty())
-      text = fmt::format("\n{:<8} {:<14} {:>14} {:>14} {:>16}\n", "model", "rule", "after 3 sweeps", "after 5 sweeps",
+      text = fmt::format("\n{:<20} {:<14} {:>14} {:>14} {:>16}\n", "model", "rule", "after 3 sweeps", "after 5 sweeps",
                          "unchanged wrong");
     const auto share = [](double value, int decimals) {
       return std::isnan(value) ? std::string("-") : fmt::format("{:.{}f}%", 100.0 * value, decimals);
     };
-    text += fmt::format("{:<8} {:<14} {:>14} {:>14} {:>16}\n", l.model, l.rule, share(l.changes->followed_3(), 2),
+    text += fmt::format("{:<20} {:<14} {:>14} {:>14} {:>16}\n", l.model, l.rule, share(l.changes->followed_3(), 2),
                         share(l.changes->followed_5(), 2), share(l.changes->wrong_share(), 3));
   }
   if (text.empty()) return text;
@@ -181,7 +222,8 @@ void draw_maps(const fs::path& file, const std::vector<MapLine>& lines) {
   results::write_png(file, results::map_sheet(maps));
 }
 
-void execute(MapsOptions& o) {
+void execute(const MapsOptions& o) {
+  refuse_older_file(o.out);
   const Interruptible interruptible;
   const datasets::OccupancyMap truth = true_map(o.from.source);
   const std::vector<datasets::TruthState> states = datasets::read_truth_states(o.from.source);
@@ -190,17 +232,16 @@ void execute(MapsOptions& o) {
   if (part.scans.empty() && part.sweeps.empty()) fail_without_readings(o.from);
   std::optional<datasets::StagedFolder> pictures;
   if (!o.pictures.empty()) pictures.emplace(o.pictures, refuse_older_pictures);
-  if (part.sweeps.empty()) o.models = {o.models.front()};  // nothing depends on it
+  const std::vector<SensorModel> models = sensor_models(part, o);
   std::vector<MapLine> lines;
   Progress progress("mapping");
-  for (const std::string& model : o.models)
+  for (const SensorModel& model : models)
     for (const std::string& rule : o.rules) {
-      lines.push_back(about(o.from.source, [&] { return map_with(part, o, model, rule, truth, states); }));
-      if (part.sweeps.empty()) lines.back().model = "laser";
-      progress.update(static_cast<double>(lines.size()) / static_cast<double>(o.models.size() * o.rules.size()));
+      lines.push_back(about(o.from.source, [&] { return map_with(model, rule, truth, states); }));
+      progress.update(static_cast<double>(lines.size()) / static_cast<double>(models.size() * o.rules.size()));
     }
   if (pictures) draw_maps(pictures->path() / "maps.png", lines);
-  if (!o.out.empty()) results::write_text(o.out, csv_of(lines));
+  if (o.out.wanted()) results::write_text(o.out.path, csv_of(lines));
   if (pictures) pictures->commit();
   if (o.format.json()) {
     ordered_json all = ordered_json::array();
@@ -218,27 +259,34 @@ void add_compare_maps(CLI::App& compare) {
   CLI::App* command =
       compare.add_subcommand("maps", "Every sensor model and rule on the same readings, against the true map.");
   command->footer(
-      "  credo compare maps datasets/room                                     sonar: all models and rules\n"
-      "  credo compare maps datasets/office --sensors range --pictures sheet  laser: all rules\n"
+      "  credo compare maps datasets/room                                     all models and rules\n"
+      "  credo compare maps datasets/office --sensors range --pictures sheet  of the laser\n"
       "  credo compare maps datasets/room --models li2007,zhu --rules dempster,pcr2 --out table.csv");
   auto o = std::make_shared<MapsOptions>();
   o->models = all_models();
+  o->laser_models = all_laser_models();
   o->rules = all_rules();
   add_map_source_options(*command, o->from);
   command->add_option("--models", o->models, "of the sonar")
       ->delimiter(',')
       ->check(CLI::IsMember(all_models()))
       ->capture_default_str();
+  command->add_option("--laser-models", o->laser_models, "of the range finders")
+      ->delimiter(',')
+      ->check(CLI::IsMember(all_laser_models()))
+      ->capture_default_str();
   command->add_option("--rules", o->rules, "of the cells")
       ->delimiter(',')
       ->check(CLI::IsMember(all_rules()))
       ->capture_default_str();
-  add_printed_option(*command, o->sonar);
+  command->add_flag("--printed", o->sonar.printed, "the sonar models' formulas as printed instead of as resolved");
   add_sonar_weights_option(*command, o->sonar);
+  add_laser_weights_option(*command, o->laser);
   command->add_option("--resolution", o->params.mapper.georeference.resolution_m, "side of a cell [m]")
       ->check(any_resolution())
       ->capture_default_str();
-  command->add_option("-o,--out", o->out, "file for the table as comma-separated values")->check(a_path());
+  command->add_option("-o,--out", o->out.path, "file for the table as comma-separated values")->check(a_path());
+  add_force_option(*command, o->out, "a table");
   command->add_option("--pictures", o->pictures, "a new folder for maps.png, all maps side by side")->check(a_path());
   add_format_option(*command, o->format);
   command->callback([o] { execute(*o); });

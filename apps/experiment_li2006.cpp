@@ -26,7 +26,7 @@ struct SensedMethod {
 mapping::TrajectoryMappingParams sensed_params(const mapping::SonarParams& sonar, double laser_reliability) {
   mapping::TrajectoryMappingParams params = evaluation::as_in_papers(sonar);
   params.mapper.georeference.resolution_m = 0.1;
-  params.mapper.laser.reliability = laser_reliability;
+  params.mapper.laser = mapping::Li2006LaserParams{.reliability = laser_reliability};
   return params;
 }
 

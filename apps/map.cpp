@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -27,7 +28,7 @@
 #include "apps/terminal.hpp"
 #include "datasets/map_server.hpp"
 #include "datasets/trajectory.hpp"
-#include "mapping/judge_transducers.hpp"
+#include "mapping/judge_instruments.hpp"
 #include "mapping/map_rule.hpp"
 #include "mapping/mapper.hpp"
 #include "results/belief_tiff.hpp"
@@ -47,6 +48,8 @@ namespace fs = std::filesystem;
 struct MapOptions {
   MapSource from;
   SonarChoice sonar;
+  LaserChoice laser;
+  bool printed = false;
   std::string rule;  ///< empty: the map that no order changes, of which most rules are read-outs
   std::string out, pictures;
   MapFilesOptions files;
@@ -78,8 +81,21 @@ mapping::RuleMap build_by_rule(const MapOptions& o, const std::vector<MapPart>& 
                             });
 }
 
-mapping::TrajectoryMap build_sum(const MapOptions& o, const std::vector<MapPart>& parts) {
+/// Without several there is nobody to judge one by.
+bool has_several_instruments(const std::vector<MapPart>& parts) {
+  std::set<int> finders;
+  for (const MapPart& part : parts) {
+    if (!part.sweeps.empty()) return true;
+    for (const sensors::RangeScan& scan : part.scans) finders.insert(scan.sensor);
+  }
+  return finders.size() > 1;
+}
+
+/// The map, and what each instrument said: kept apart where there are several, unless the map is large.
+mapping::TrajectoryMap build_sum(const MapOptions& o, const std::vector<MapPart>& parts,
+                                 std::vector<mapping::InstrumentMap>& by_instrument) {
   mapping::TrajectoryMap map{.grid = grids::EvidentialGrid(o.params.mapper.georeference), .counts = {}};
+  const bool apart = !o.large && has_several_instruments(parts);
   Progress progress("mapping");
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto report = [&](double share) {
@@ -87,6 +103,17 @@ mapping::TrajectoryMap build_sum(const MapOptions& o, const std::vector<MapPart>
       progress.update((static_cast<double>(i) + share) / static_cast<double>(parts.size()));
     };
     const MapPart& part = parts[i];
+    if (apart) {
+      mapping::InstrumentMaps one =
+          mapping::map_by_instrument(part.path, part.rig, part.scans, part.sweeps, o.params, report);
+      map.counts += one.counts;
+      map.without_pose += one.without_pose;
+      for (mapping::InstrumentMap& of : one.maps) {
+        map.grid.merge(of.grid);
+        by_instrument.push_back(std::move(of));
+      }
+      continue;
+    }
     const mapping::TrajectoryMap one =
         mapping::map_along(part.path, part.rig, part.scans, part.sweeps, o.params, report);
     map.grid.merge(one.grid);
@@ -96,9 +123,9 @@ mapping::TrajectoryMap build_sum(const MapOptions& o, const std::vector<MapPart>
   return map;
 }
 
-Made build(const MapOptions& o, const std::vector<MapPart>& parts) {
+Made build(const MapOptions& o, const std::vector<MapPart>& parts, std::vector<mapping::InstrumentMap>& by_instrument) {
   require_fits(o, parts);
-  if (o.rule.empty()) return build_sum(o, parts);
+  if (o.rule.empty()) return build_sum(o, parts, by_instrument);
   return build_by_rule(o, parts);
 }
 
@@ -180,20 +207,14 @@ void write(const MapOptions& o, const Made& made, const std::vector<MapPart>& pa
   if (pictures && drawn) pictures->publish();
 }
 
-/// How far each transducer is opposed by all others; none without sonar.
-std::vector<mapping::TransducerVerdict> judged(const MapOptions& o, const std::vector<MapPart>& parts) {
-  for (const MapPart& part : parts)
-    if (!part.sweeps.empty()) return mapping::judge_transducers(part.path, part.rig, part.sweeps, o.params);
-  return {};
-}
-
-nlohmann::ordered_json json_of(const std::vector<mapping::TransducerVerdict>& verdicts) {
+nlohmann::ordered_json json_of(const std::vector<mapping::InstrumentVerdict>& verdicts) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const mapping::TransducerVerdict& v : verdicts)
-    all.push_back({{"ring", v.ring},
-                   {"transducer", v.transducer},
+  for (const mapping::InstrumentVerdict& v : verdicts)
+    all.push_back({{"instrument", v.instrument.name()},
                    {"readings", v.readings},
+                   {"shared_cells", v.cells},
                    {"opposed", v.opposed},
+                   {"judged_sweeps", v.judged},
                    {"reliability", v.reliability}});
   return all;
 }
@@ -213,15 +234,26 @@ std::string changes_text(const Made& made) {
          " settled cells; credo cell says since when";
 }
 
-/// What would have no effect is refused, so that nobody takes it for granted.
-void require_meaning(const MapOptions& o) {
-  const std::string& model = o.sonar.model;
-  if (o.sonar.printed && (model == "su" || model == "zhu" || model == "calibrated"))
+void require_two_forms(const std::string& model) {
+  if (model == "su" || model == "zhu" || model == "calibrated")
     throw std::runtime_error("--printed: the model '" + model +
                              "' has one form only; those of Li X. and Li P. have two");
-  if (!o.sonar.weights.empty() && model != "calibrated")
-    throw std::runtime_error("--sonar-weights are of the model 'calibrated', not of '" + model +
-                             "': add --model calibrated");
+}
+
+void require_learned(const std::string& weights, const std::string& weights_option, const std::string& model,
+                     const std::string& model_option) {
+  if (!weights.empty() && model != "calibrated")
+    throw std::runtime_error(weights_option + ": these are of the model 'calibrated', not of '" + model + "': add " +
+                             model_option + " calibrated");
+}
+
+/// What would have no effect is refused, so that nobody takes it for granted.
+void require_meaning(const MapOptions& o) {
+  const auto mapped = [&](const char* sensor) { return std::ranges::count(o.from.sensors, sensor) > 0; };
+  if (o.printed && mapped("sonar")) require_two_forms(o.sonar.model);
+  if (o.printed && mapped("range")) require_two_forms(o.laser.model);
+  require_learned(o.sonar.weights, "--sonar-weights", o.sonar.model, "--model");
+  require_learned(o.laser.weights, "--laser-weights", o.laser.model, "--laser-model");
   if (o.rule.empty()) return;
   if (o.files.raw())
     throw std::runtime_error(
@@ -235,12 +267,15 @@ void execute(MapOptions o) {
   const auto [parts, poses] = read_map_parts(o.from);
   if (o.out.empty())
     o.out = (fs::path("results") / (fs::path(o.from.source).lexically_normal().stem().string() + "_map")).string();
+  o.sonar.printed = o.laser.printed = o.printed;
   o.params.mapper.sonar = sonar_params(o.sonar, o.params.mapper.georeference.resolution_m);
+  o.params.mapper.laser = laser_params(o.laser);
   const Interruptible interruptible;
   datasets::StagedFolder folder = results::stage_results(o.out, o.force);
   std::optional<PictureFolder> pictures;
   if (!o.pictures.empty()) pictures.emplace(o.pictures, o.out, folder.path(), o.force);
-  const Made made = about(o.from.source, [&] { return build(o, parts); });
+  std::vector<mapping::InstrumentMap> by_instrument;
+  const Made made = about(o.from.source, [&] { return build(o, parts, by_instrument); });
   const auto [counts, without_pose] =
       std::visit([](const auto& map) { return std::pair(map.counts, map.without_pose); }, made);
   check_overlap(o, parts, counts, without_pose, poses);
@@ -250,7 +285,7 @@ void execute(MapOptions o) {
   Interruptible::check();
   folder.commit();
   const grids::CellBox box = box_of(made);
-  const std::vector<mapping::TransducerVerdict> verdicts = about(o.from.source, [&] { return judged(o, parts); });
+  const std::vector<mapping::InstrumentVerdict> verdicts = mapping::judge_instruments(by_instrument);
   if (o.format.json()) {
     print(nlohmann::ordered_json{{"map", o.out},
                                  {"poses", poses},
@@ -262,7 +297,7 @@ void execute(MapOptions o) {
                                  {"width", box.width},
                                  {"height", box.height},
                                  {"resolution_m", o.params.mapper.georeference.resolution_m},
-                                 {"transducers", json_of(verdicts)}});
+                                 {"instruments", json_of(verdicts)}});
     return;
   }
   std::printf("mapped %lld scans and %lld sonar sweeps with %s; %lld readings had no pose near in time\n",
@@ -271,17 +306,23 @@ void execute(MapOptions o) {
   std::printf("map: %s (%d x %d cells of %g m)\n", o.out.c_str(), box.width, box.height,
               o.params.mapper.georeference.resolution_m);
   if (const std::string changed = changes_text(made); !changed.empty()) std::printf("%s\n", changed.c_str());
-  if (!verdicts.empty()) std::printf("transducers: %s\n", mapping::summary(verdicts).c_str());
+  if (!verdicts.empty()) std::printf("instruments: %s\n", mapping::summary(verdicts).c_str());
   if (!o.pictures.empty()) std::printf("pictures: %s\n", o.pictures.c_str());
 }
 
-/// The sonar model and the rule.
+/// The sensor models and the rule.
 void add_method_options(CLI::App& command, MapOptions& o) {
-  const auto models = mapping::sonar_model_names();
+  const auto names = [](std::span<const std::string_view> models) {
+    return std::vector<std::string>(models.begin(), models.end());
+  };
   command.add_option("--model", o.sonar.model, "of the sonar")
-      ->check(CLI::IsMember(std::vector<std::string>(models.begin(), models.end())))
+      ->check(CLI::IsMember(names(mapping::sonar_model_names())))
       ->capture_default_str();
-  add_printed_option(command, o.sonar);
+  command.add_option("--laser-model", o.laser.model, "of the range finders")
+      ->check(CLI::IsMember(names(mapping::laser_model_names())))
+      ->capture_default_str();
+  command.add_flag("--printed", o.printed, "the models' formulas as printed instead of as resolved");
+  add_laser_weights_option(command, o.laser);
   add_sonar_weights_option(command, o.sonar);
   std::vector<std::string> rules;
   for (const mapping::NamedRule& rule : mapping::map_rules()) rules.emplace_back(rule.name);
@@ -302,6 +343,7 @@ void add_map(CLI::App& app) {
       "  credo map intel.log.gz --poses ego --out results/intel_ego                when all drifts\n"
       "  credo map intel.log.gz --poses ego --lines hough --out results/intel_hough\n"
       "  credo map datasets/room --sensors sonar --model calibrated                another sonar model\n"
+      "  credo map datasets/office --sensors range --laser-model calibrated        another laser model\n"
       "  credo map datasets/room --sensors sonar --model zhu --rule adaptive       and another rule");
   auto o = std::make_shared<MapOptions>();
   add_map_source_options(*command, o->from);

@@ -12,7 +12,7 @@
 #include "apps/terminal.hpp"
 #include "datasets/carmen.hpp"
 #include "datasets/dataset.hpp"
-#include "datasets/sonar_weights_file.hpp"
+#include "datasets/sensor_weights_file.hpp"
 #include "datasets/time_order.hpp"
 #include "datasets/trajectory.hpp"
 
@@ -140,21 +140,39 @@ void add_sonar_weights_option(CLI::App& command, SonarChoice& choice) {
       ->check(a_path());
 }
 
-void add_printed_option(CLI::App& command, SonarChoice& choice) {
-  command.add_flag("--printed", choice.printed, "the sonar model's formulas as printed instead of as resolved");
+void add_laser_weights_option(CLI::App& command, LaserChoice& choice) {
+  command
+      .add_option("--laser-weights", choice.weights, "of the laser model 'calibrated': a file of credo calibrate laser")
+      ->check(a_path());
 }
 
 mapping::SonarParams sonar_params(const SonarChoice& choice, double resolution_m) {
   mapping::SonarParams params = mapping::sonar_params(choice.model, resolution_m);
   std::visit(
       [&](auto& p) {
-        if constexpr (requires { p.variant; })
-          p.variant = choice.printed ? mapping::Variant::kPrinted : mapping::Variant::kResolved;
+        const auto variant = choice.printed ? mapping::Variant::kPrinted : mapping::Variant::kResolved;
+        if constexpr (requires { p.variant; }) p.variant = variant;
+        if constexpr (requires { p.matched.variant; }) p.matched.variant = variant;
         if constexpr (requires { p.weights; })
           if (!choice.weights.empty())
             p.weights = datasets::read_sonar_weights(choice.weights, mapping::SonarKnots::kCount);
       },
       params);
+  return params;
+}
+
+mapping::LaserParams laser_params(const LaserChoice& choice) {
+  mapping::LaserParams params = mapping::laser_params(choice.model);
+  const auto variant = choice.printed ? mapping::Variant::kPrinted : mapping::Variant::kResolved;
+  if (auto* li2006 = std::get_if<mapping::Li2006LaserParams>(&params)) li2006->variant = variant;
+  if (auto* bayes = std::get_if<mapping::BayesLaserParams>(&params)) bayes->matched.variant = variant;
+  if (auto* learned = std::get_if<mapping::CalibratedLaserParams>(&params); learned && !choice.weights.empty()) {
+    datasets::LaserModelFile read = datasets::read_laser_weights(choice.weights, mapping::LaserKnots::kCount);
+    *learned = {.free_margin = {.least_m = read.free_margin_m, .sigmas = read.free_margin_sigmas},
+                .half_width = {.least_m = read.half_width_m, .sigmas = read.half_width_sigmas},
+                .summed = {read.summed.free_weight, std::move(read.summed.hit_weights)},
+                .alone = {read.alone.free_weight, std::move(read.alone.hit_weights)}};
+  }
   return params;
 }
 

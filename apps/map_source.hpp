@@ -38,10 +38,18 @@ struct SonarChoice {
   bool printed = false;
 };
 
+/// The same of the range finders.
+struct LaserChoice {
+  std::string model = "li2006";
+  std::string weights;  ///< file; empty: the default ones
+  bool printed = false;
+};
+
 void add_sonar_weights_option(CLI::App& command, SonarChoice& choice);
-void add_printed_option(CLI::App& command, SonarChoice& choice);
+void add_laser_weights_option(CLI::App& command, LaserChoice& choice);
 /// \throws std::runtime_error if the file of weights cannot be read
 [[nodiscard]] mapping::SonarParams sonar_params(const SonarChoice& choice, double resolution_m);
+[[nodiscard]] mapping::LaserParams laser_params(const LaserChoice& choice);
 
 void add_map_source_options(CLI::App& command, MapSource& source);
 

@@ -4,7 +4,9 @@
 #include "apps/output.hpp"
 
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace credo::apps {
 
@@ -12,6 +14,15 @@ void add_format_option(CLI::App& command, OutputFormat& format) {
   command.add_option("--format", format.name, "text for people, json for machines")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();
+}
+
+void add_force_option(CLI::App& command, OutputFile& file, const std::string& what) {
+  command.add_flag("-f,--force", file.force, "replace " + what + " that is already there");
+}
+
+void refuse_older_file(const OutputFile& file) {
+  if (!file.force && file.wanted() && std::filesystem::exists(file.path))
+    throw std::runtime_error(file.path + ": is there already: choose another file with --out, or add --force");
 }
 
 void print(const nlohmann::ordered_json& value) {

@@ -19,6 +19,21 @@ struct OutputFormat {
 
 void add_format_option(CLI::App& command, OutputFormat& format);
 
+/// `--out` names one file, and `--force` lets it replace an older one.
+struct OutputFile {
+  std::string path;  ///< empty: none
+  bool force = false;
+
+  [[nodiscard]] bool wanted() const { return !path.empty(); }
+};
+
+/// \param what  "the table", as the help calls what is written
+void add_force_option(CLI::App& command, OutputFile& file, const std::string& what);
+
+/// To be called before work that takes long.
+/// \throws std::runtime_error if the file is there already and may not be replaced
+void refuse_older_file(const OutputFile& file);
+
 /// To standard output, indented; numbers that are not finite become null, bytes that are no UTF-8 a replacement.
 void print(const nlohmann::ordered_json& value);
 

@@ -27,9 +27,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PlanOptions {
-  std::string source, out = "floor_plan.yaml";
+  std::string source;
+  OutputFile out{.path = "floor_plan.yaml"};
   std::vector<double> region;  ///< two corners [m]; empty: the whole map
-  bool force = false;
   grids::WallParams params;
   OutputFormat format;
 };
@@ -64,20 +64,19 @@ geometry::FloorPlan plan_of(const PlanOptions& o) {
 }
 
 void execute(const PlanOptions& o) {
-  if (!o.force && fs::exists(o.out))
-    throw std::runtime_error(o.out + ": is there already: choose another file with --out, or add --force");
+  refuse_older_file(o.out);
   const geometry::FloorPlan plan = about(o.source, [&] { return plan_of(o); });
   if (plan.walls.empty())
     throw std::runtime_error(fmt::format("{}: no wall of {:g} m or more is in this map: try a lower --shortest",
                                          o.source, o.params.shortest_m));
-  datasets::write_floor_plan(o.out, plan);
+  datasets::write_floor_plan(o.out.path, plan);
   double length_m = 0.0;
   for (const geometry::Segment& wall : plan.walls) length_m += wall.length();
   if (o.format.json()) {
-    print(nlohmann::ordered_json{{"floor_plan", o.out}, {"walls", plan.walls.size()}, {"length_m", length_m}});
+    print(nlohmann::ordered_json{{"floor_plan", o.out.path}, {"walls", plan.walls.size()}, {"length_m", length_m}});
     return;
   }
-  std::printf("floor plan: %s (%zu walls, %.1f m)\n", o.out.c_str(), plan.walls.size(), length_m);
+  std::printf("floor plan: %s (%zu walls, %.1f m)\n", o.out.path.c_str(), plan.walls.size(), length_m);
 }
 
 }  // namespace
@@ -92,7 +91,7 @@ void add_plan(CLI::App& app) {
   command->add_option("MAP", o->source, "a results folder, a map.cgrid, or a map_server YAML")
       ->check(a_path())
       ->required();
-  command->add_option("-o,--out", o->out, "the floor plan")->check(a_path())->capture_default_str();
+  command->add_option("-o,--out", o->out.path, "the floor plan")->check(a_path())->capture_default_str();
   command->add_option("--shortest", o->params.shortest_m, "what is shorter is clutter [m]")
       ->check(number_in(0, 1000))
       ->capture_default_str();
@@ -100,7 +99,7 @@ void add_plan(CLI::App& app) {
       ->check(number_in(0, 1000))
       ->capture_default_str();
   add_region_option(*command, o->region);
-  command->add_flag("-f,--force", o->force, "replace a floor plan that is already there");
+  add_force_option(*command, o->out, "a floor plan");
   add_format_option(*command, o->format);
   command->callback([o] { execute(*o); });
 }

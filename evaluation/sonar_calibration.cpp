@@ -3,7 +3,6 @@
 
 #include "evaluation/sonar_calibration.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <stdexcept>
 
@@ -89,12 +88,11 @@ class Counts {
 
 }  // namespace
 
-SonarCalibration::SonarCalibration(const SonarCalibrationParams& params) : params_(params) {
+SonarCalibration::SonarCalibration(const SonarCalibrationParams& params)
+    : params_(params), regression_(SonarKnots::kCount, params.regression) {
   const evidence::ParameterCheck check("sonar calibration: ");
   check.positive("resolution_m", params.resolution_m);
-  check.positive("ridge", params.ridge);
   check.at_least("empty_stride", params.empty_stride, 1);
-  check.at_least("most_iterations", params.most_iterations, 1);
 }
 
 void SonarCalibration::add(const sensors::MotionPath& T_map_base, const sensors::SonarRing& ring,
@@ -112,41 +110,19 @@ void SonarCalibration::add(const sensors::MotionPath& T_map_base, const sensors:
         T_map_base, ignored, placed);
     for (const mapping::PlacedReading& reading : placed) counts.take_in(reading, ring);
   }
+  std::vector<LogisticRegression::Entry> entries;
   counts.for_each([&](bool occupied, std::span<const float> cell) {
-    Row row{entries_.size(), entries_.size(), occupied, occupied ? 1.0 : static_cast<double>(params_.empty_stride)};
+    entries.clear();
     for (std::size_t i = 0; i < cell.size(); ++i)
-      if (cell[i] > 0.0F) entries_.push_back({static_cast<std::uint32_t>(i), cell[i]});
-    row.end = entries_.size();
-    if (row.end > row.begin) rows_.push_back(row);
+      if (cell[i] > 0.0F) entries.push_back({static_cast<std::uint32_t>(i), cell[i]});
+    if (!entries.empty())
+      regression_.add(entries, occupied, occupied ? 1.0 : static_cast<double>(params_.empty_stride));
   });
 }
 
 std::vector<double> SonarCalibration::fit() const {
-  if (rows_.empty()) throw std::invalid_argument("sonar calibration: no reading was of a cell whose truth is known");
-  constexpr auto n = static_cast<Eigen::Index>(SonarKnots::kCount);
-  constexpr double kSmallStep = 1e-6, kLargestStep = 1.0;
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
-  for (int iteration = 0; iteration < params_.most_iterations; ++iteration) {
-    Eigen::VectorXd gradient = params_.ridge * weights;
-    Eigen::MatrixXd hessian = params_.ridge * Eigen::MatrixXd::Identity(n, n);
-    for (const Row& row : rows_) {
-      double log_odds = 0.0;
-      for (std::size_t e = row.begin; e < row.end; ++e) log_odds += entries_[e].count * weights[entries_[e].weight];
-      const double p = 1.0 / (1.0 + std::exp(-log_odds));
-      const double pull = row.count * (p - (row.occupied ? 1.0 : 0.0)), stiffness = row.count * p * (1.0 - p);
-      for (std::size_t e = row.begin; e < row.end; ++e) {
-        gradient[entries_[e].weight] += pull * entries_[e].count;
-        for (std::size_t f = row.begin; f <= e; ++f)
-          hessian(entries_[e].weight, entries_[f].weight) += stiffness * entries_[e].count * entries_[f].count;
-      }
-    }
-    Eigen::VectorXd step = hessian.selfadjointView<Eigen::Lower>().ldlt().solve(-gradient);
-    const double largest = step.cwiseAbs().maxCoeff();
-    if (largest > kLargestStep) step *= kLargestStep / largest;
-    weights += step;
-    if (largest < kSmallStep) break;
-  }
-  return {weights.begin(), weights.end()};
+  if (cells() == 0) throw std::invalid_argument("sonar calibration: no reading was of a cell whose truth is known");
+  return regression_.fit().weights;
 }
 
 MapDrive sonar_drive(std::uint64_t seed, const sim::RandomWorldParams& params) {

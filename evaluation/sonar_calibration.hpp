@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datasets/map_server.hpp"
+#include "evaluation/logistic_regression.hpp"
 #include "evaluation/map_experiment.hpp"
 #include "mapping/mapper.hpp"
 #include "sim/random_world.hpp"
@@ -16,9 +17,8 @@ namespace credo::evaluation {
 
 struct SonarCalibrationParams {
   double resolution_m = 0.05;  ///< side of the cells that are learned from
-  double ridge = 3.0;          ///< weights are as small as 1/sqrt(this) unless readings say otherwise
   int empty_stride = 4;        ///< of the empty cells, which are many, each so-manieth is taken, and counts as often
-  int most_iterations = 50;
+  LogisticParams regression;
 };
 
 /// Learns the weights of mapping::CalibratedSonar from drives whose true map is known.
@@ -33,27 +33,15 @@ class SonarCalibration {
   void add(const sensors::MotionPath& T_map_base, const sensors::SonarRing& ring,
            std::span<const sensors::SonarSweep> sweeps, const datasets::OccupancyMap& truth);
 
-  [[nodiscard]] std::int64_t cells() const { return static_cast<std::int64_t>(rows_.size()); }
+  [[nodiscard]] std::int64_t cells() const { return regression_.rows(); }
 
-  /// The weights under which the states of all cells are likeliest: logistic regression with a ridge, by Newton's
-  /// method. \throws std::invalid_argument if no cell was learned from.
+  /// The weights under which the states of all cells are likeliest: logistic regression with a ridge.
+  /// \throws std::invalid_argument if no cell was learned from.
   [[nodiscard]] std::vector<double> fit() const;
 
  private:
-  /// How often each weight counts in a cell: its sparse entries, from begin on.
-  struct Row {
-    std::size_t begin = 0, end = 0;
-    bool occupied = false;
-    double count = 1.0;
-  };
-  struct Entry {
-    std::uint32_t weight;
-    float count;
-  };
-
   SonarCalibrationParams params_;
-  std::vector<Row> rows_;
-  std::vector<Entry> entries_;
+  LogisticRegression regression_;
 };
 
 /// A drive of a 16-sonar ring (pioneer-16), alone, through a building that is drawn from a random seed.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mapping/simple_mass.hpp"
+
 namespace credo::mapping {
 namespace {
 
@@ -30,15 +32,18 @@ Li2006Laser::Li2006Laser(const Li2006LaserParams& params) : params_(params) {
     throw std::invalid_argument("laser model: reliability must be in [0, 1): at 1 no later reading could correct it");
 }
 
-evidence::GridMass Li2006Laser::free_mass() const { return kFree; }
-evidence::GridMass Li2006Laser::hit_mass() const { return kHit; }
+bool Li2006Laser::is_printed() const { return params_.variant == Variant::kPrinted; }
+
+evidence::GridMass Li2006Laser::free_mass() const { return is_printed() ? before_full_trust(kFree) : kFree; }
+evidence::GridMass Li2006Laser::hit_mass() const { return is_printed() ? before_full_trust(kHit) : kHit; }
+double Li2006Laser::reliability() const { return is_printed() ? kFullTrust : params_.reliability; }
 
 double Li2006Laser::free_margin(double reading_m, const sensors::RangeNoise& noise) const {
-  return std::max(params_.epsilon_m, params_.free_sigmas * noise.sigma(reading_m));
+  return is_printed() ? params_.epsilon_m : std::max(params_.epsilon_m, params_.free_sigmas * noise.sigma(reading_m));
 }
 
 double Li2006Laser::half_width(double reading_m, const sensors::RangeNoise& noise) const {
-  return std::max(params_.epsilon_m, params_.hit_sigmas * noise.sigma(reading_m));
+  return is_printed() ? params_.epsilon_m : std::max(params_.epsilon_m, params_.hit_sigmas * noise.sigma(reading_m));
 }
 
 double Li2006Laser::hit_share(double reading_m, const sensors::RangeNoise& noise) const {

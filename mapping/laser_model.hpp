@@ -6,6 +6,7 @@
 #include <concepts>
 
 #include "evidence/grid_mass.hpp"
+#include "mapping/variant.hpp"
 #include "sensors/range_finder.hpp"
 
 namespace credo::mapping {
@@ -27,12 +28,13 @@ struct Li2006LaserParams {
   double free_sigmas = 3.0;   ///< free space ends at least this many sigma of the range before the reading
   double hit_sigmas = 1.0;    ///< and the occupied interval has at least this many to either side
   double reliability = 0.95;  ///< discounts every reading
+  Variant variant = Variant::kResolved;
 };
 
 /// Laser of Li X. 2006, eqs. (10)-(12): free (.9, .05, .05), occupied (.05, .9, .05). The paper's +-5 cm holds for time
 /// of flight; a triangulating range finder's error grows with the square of the range. So free space ends 3 sigma
 /// before the reading, the occupied interval is a sigma wide to either side, and, as the wall is in one place of it
-/// only, its evidence is discounted by the share eps / half_width.
+/// only, its evidence is discounted by the share eps / half_width. As printed: +-eps at any range, not discounted.
 class Li2006Laser {
  public:
   /// \throws std::invalid_argument if a parameter is out of its range.
@@ -43,9 +45,11 @@ class Li2006Laser {
   [[nodiscard]] double free_margin(double reading_m, const sensors::RangeNoise& noise) const;
   [[nodiscard]] double half_width(double reading_m, const sensors::RangeNoise& noise) const;
   [[nodiscard]] double hit_share(double reading_m, const sensors::RangeNoise& noise) const;
-  [[nodiscard]] double reliability() const { return params_.reliability; }
+  [[nodiscard]] double reliability() const;
 
  private:
+  [[nodiscard]] bool is_printed() const;
+
   Li2006LaserParams params_;
 };
 static_assert(LaserModel<Li2006Laser>);

@@ -75,9 +75,9 @@ Mapper::Mapper(const sensors::Rig& rig, const MapperParams& params)
     check(ring);
     state_->fans.emplace_back(sonar_model(ring, params.sonar), ring, params.georeference);
   }
-  const Li2006Laser laser(params.laser);
   for (const sensors::RangeFinder& finder : rig.range_finders)
-    state_->scans.emplace_back(finder, params.georeference, laser_tables(laser, finder, params.scan), params.scan);
+    state_->scans.emplace_back(finder, params.georeference, laser_tables(params.laser, finder, params.scan),
+                               params.scan);
 }
 
 Mapper::~Mapper() = default;

@@ -12,7 +12,7 @@
 #include "evidence/believed.hpp"
 #include "grids/evidential_grid.hpp"
 #include "mapping/freshness.hpp"
-#include "mapping/laser_model.hpp"
+#include "mapping/laser_choice.hpp"
 #include "mapping/placed_sweep.hpp"
 #include "mapping/pose_blur.hpp"
 #include "mapping/pose_reliability.hpp"
@@ -26,7 +26,7 @@ namespace credo::mapping {
 struct MapperParams {
   grids::Georeference georeference;
   SonarParams sonar;
-  Li2006LaserParams laser;
+  LaserParams laser;
   ScanParams scan;
   PoseReliabilityParams pose;
   PoseBlurParams blur;

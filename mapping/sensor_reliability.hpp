@@ -10,7 +10,7 @@
 namespace credo::mapping {
 
 /// How far each instrument is to be trusted, beyond what its sensor model says of its kind: given, or found by
-/// judge_transducers().
+/// judge_instruments().
 struct SensorReliabilityParams {
   std::vector<double> transducers;    ///< of all sonar rings, one ring after the other, in [0, 1]; empty: all 1
   std::vector<double> range_finders;  ///< in [0, 1]; empty: all 1

@@ -45,7 +45,8 @@ void for_each_mass(const grids::Georeference& georeference, const sensors::Sonar
 /// The same readings as `Mapper` into cells of any rule, one after the other. Slower: each cell asks the sensor model
 /// itself, so that masses without ignorance stay what they are. An unsure pose blurs each reading of a transducer and
 /// each scan: the mean over the poses that may be. Readings of a robot at rest count less and less (Freshness), unless
-/// the rule forgets; so they are to be given by time.
+/// the rule forgets; so they are to be given by time. A laser model that was learned gives a rule that forgets what a
+/// reading is worth by itself.
 template <CellRule Rule>
 class SequentialMapper {
  public:
@@ -60,9 +61,9 @@ class SequentialMapper {
         freshness_(params.freshness),
         grid_(params.georeference) {
     for (const sensors::SonarRing& ring : rig.sonar_rings) sonars_.push_back(sonar_model(ring, params.sonar));
-    const Li2006Laser laser(params.laser);
     for (const sensors::RangeFinder& finder : rig.range_finders)
-      scans_.emplace_back(finder, params.georeference, laser_tables(laser, finder, params.scan), params.scan);
+      scans_.emplace_back(finder, params.georeference, laser_tables(params.laser, finder, params.scan, kTaken),
+                          params.scan);
   }
 
   /// \throws as Mapper::insert
@@ -135,6 +136,8 @@ class SequentialMapper {
   }
 
  private:
+  static constexpr ReadingsTaken kTaken = Rule::kForgets ? ReadingsTaken::kAlone : ReadingsTaken::kSummed;
+
   template <typename Reading>
   [[nodiscard]] double share_of(const Reading& reading, const evidence::Believed<geometry::PoseEstimate>& T_map_base) {
     return Rule::kForgets ? 1.0 : freshness_.of_next(reading, T_map_base.value.pose);

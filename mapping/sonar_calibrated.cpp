@@ -5,18 +5,12 @@
 
 #include <algorithm>
 
+#include "mapping/simple_mass.hpp"
+
 namespace credo::mapping {
 namespace {
 
 using evidence::GridMass;
-
-GridMass simple_mass(double weight) {
-  const double mass = -std::expm1(-std::abs(weight));
-  return {.empty = weight < 0.0 ? mass : 0.0,
-          .occupied = weight > 0.0 ? mass : 0.0,
-          .conflict = 0.0,
-          .unknown = 1.0 - mass};
-}
 
 NoEcho learned_no_echo(const sensors::SonarRing& ring, const CalibratedSonarParams& params) {
   const double half_width_rad = 0.5 * ring.beam_width_rad, range_min_m = ring.range_min_m;

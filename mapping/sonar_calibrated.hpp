@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "mapping/knots.hpp"
 #include "mapping/sonar_model.hpp"
 
 namespace credo::mapping {
@@ -65,20 +66,6 @@ class CalibratedSonar {
 static_assert(SonarModel<CalibratedSonar>);
 
 // What follows is how it is done.
-
-/// A place between two knots.
-struct BetweenKnots {
-  std::size_t low = 0;
-  double share_of_high = 0.0;
-};
-
-template <std::size_t N>
-[[nodiscard]] constexpr BetweenKnots between(const std::array<double, N>& knots, double x) {
-  if (!(x > knots.front())) return {0, 0.0};
-  for (std::size_t i = 1; i < N; ++i)
-    if (x < knots[i]) return {i - 1, (x - knots[i - 1]) / (knots[i] - knots[i - 1])};
-  return {N - 2, 1.0};
-}
 
 template <typename Visit>
 void for_each_echo_weight(double rho_m, double off_axis, double reading_m, const Visit& visit) {

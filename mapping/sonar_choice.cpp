@@ -11,7 +11,7 @@ namespace credo::mapping {
 namespace {
 
 // In the order of SonarParams.
-constexpr std::array<std::string_view, 6> kNames{"li2007", "li2006", "lip", "su", "zhu", "calibrated"};
+constexpr std::array<std::string_view, 7> kNames{"li2007", "li2006", "lip", "su", "zhu", "bayes", "calibrated"};
 static_assert(kNames.size() == std::variant_size_v<SonarParams>);
 
 struct Maker {
@@ -22,6 +22,7 @@ struct Maker {
   AnySonarModel operator()(const LiPParams& p) const { return AnySonarModel(LiPSonar(ring, p)); }
   AnySonarModel operator()(const SuParams& p) const { return AnySonarModel(SuSonar(ring, p)); }
   AnySonarModel operator()(const ZhuParams& p) const { return AnySonarModel(ZhuSonar(ring, p)); }
+  AnySonarModel operator()(const BayesSonarParams& p) const { return AnySonarModel(BayesSonar(ring, p)); }
   AnySonarModel operator()(const CalibratedSonarParams& p) const { return AnySonarModel(CalibratedSonar(ring, p)); }
 };
 
@@ -41,9 +42,10 @@ SonarParams sonar_params(std::string_view name, double resolution_m) {
   if (name == "lip") return LiPParams{};
   if (name == "su") return SuParams{.unit_m = resolution_m};
   if (name == "zhu") return ZhuParams{.cell_m = resolution_m};
+  if (name == "bayes") return BayesSonarParams{};
   if (name == "calibrated") return CalibratedSonarParams{};
   throw std::invalid_argument("no sonar model is called '" + std::string(name) +
-                              "': expected li2007, li2006, lip, su, zhu or calibrated");
+                              "': expected li2007, li2006, lip, su, zhu, bayes or calibrated");
 }
 
 }  // namespace credo::mapping

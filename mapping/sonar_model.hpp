@@ -9,12 +9,10 @@
 
 #include "evidence/grid_mass.hpp"
 #include "evidence/parameter_check.hpp"
+#include "mapping/variant.hpp"
 #include "sensors/sonar_ring.hpp"
 
 namespace credo::mapping {
-
-/// The formulas as printed, brought to sum 1 by division; or as resolved (docs/equations.md).
-enum class Variant { kResolved, kPrinted };
 
 /// The beam shape lambda: 1 on the axis, 0 at the edge of the cone (Li X. 2006, eq. (9); Li X. 2007, eq. (9); Li P.,
 /// eq. (12)).

@@ -57,12 +57,15 @@ std::string scalar(const T& value) {
     return fmt::format("{}", value);
 }
 
+template <typename T>
+constexpr bool is_sensor_model = std::is_same_v<T, mapping::SonarParams> || std::is_same_v<T, mapping::LaserParams>;
+
 /// In one line: a number, or a list or a map of what fits on one line.
 template <typename T>
 std::string flow(const T& value) {
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
     return scalar(value);
-  } else if constexpr (std::is_same_v<T, mapping::SonarParams>) {
+  } else if constexpr (is_sensor_model<T>) {
     return std::string(mapping::name_of(value));
   } else if constexpr (is_matrix<T>) {
     std::string text = "[";
@@ -104,7 +107,7 @@ bool is_small(const T& value) {
 template <typename T>
 void emit(std::string& out, std::string_view name, const T& value, std::size_t depth) {
   const std::string indent(2 * depth, ' ');
-  if constexpr (std::is_same_v<T, mapping::SonarParams>) {
+  if constexpr (is_sensor_model<T>) {
     out += fmt::format("{}{}:\n{}  model: {}\n", indent, name, indent, mapping::name_of(value));
     std::visit(
         [&](const auto& model) {

@@ -63,34 +63,78 @@ TEST_F(CompareCommand, WhatCannotBeComparedSaysWhatItLacks) {
 
 TEST_F(CompareCommand, MapsAreComparedOnTheSameReadings) {
   ASSERT_EQ(credo("simulate demo --out data").status, 0);
-  const Answer text =
-      credo("compare maps data --models li2007,calibrated --rules dempster,pcr2 --out t.csv --pictures p");
+  const Answer text = credo(
+      "compare maps data --sensors sonar --models li2007,calibrated --rules dempster,pcr2 --out t.csv --pictures p");
   EXPECT_EQ(text.status, 0) << text.error;
   EXPECT_THAT(text.out,
               AllOf(HasSubstr("li2007"), HasSubstr("calibrated"), HasSubstr("pcr2"), HasSubstr("accuracy: of all")));
   EXPECT_TRUE(fs::exists(folder_ / "p" / "maps.png"));
   EXPECT_THAT(read("t.csv"), AllOf(StartsWith("#model,rule,cells"), HasSubstr("\ncalibrated,pcr2,")));
   const json maps =
-      json::parse(credo("compare maps data --sensors range --rules dempster,dsmc --format json").out)["maps"];
-  ASSERT_EQ(maps.size(), 2u);
-  EXPECT_EQ(maps[0]["model"], "laser");
-  EXPECT_EQ(maps[0]["accuracy"], maps[1]["accuracy"]);  // of the same sum
-  EXPECT_GT(maps[0]["accuracy"], 0.95);
+      json::parse(credo("compare maps data --models li2007 --rules dempster,dsmc --format json").out)["maps"];
+  ASSERT_EQ(maps.size(), 10u);  // of the sonar first, then the laser's models
+  EXPECT_EQ(maps[0]["model"], "li2007");
+  const char* laser_models[] = {"laser li2006_printed", "laser li2006", "laser bayes", "laser calibrated"};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const json &dempster = maps[2 + 2 * k], &dsmc = maps[3 + 2 * k];
+    EXPECT_EQ(dempster["model"], laser_models[k]);
+    EXPECT_EQ(dempster["accuracy"], dsmc["accuracy"]);  // of the same sum
+    EXPECT_GT(dempster["accuracy"], 0.95) << laser_models[k];
+  }
   fs::remove(folder_ / "data" / "truth_map.yaml");
   EXPECT_THAT(credo("compare maps data").error, HasSubstr("data: has no truth_map.yaml"));
   EXPECT_EQ(credo("compare maps data --rules pcr7").status, 2);
 }
 
+TEST_F(CompareCommand, AnOlderFileIsReplacedOnlyIfForced) {
+  ASSERT_EQ(credo("simulate demo --out data").status, 0);
+  for (const char* command : {"compare maps data --sensors sonar --models li2007 --rules dempster --out out.csv",
+                              "compare localizers data --out out.csv", "calibrate sonar data --out out.csv"}) {
+    write("out.csv", "older");
+    const Answer refused = credo(command);
+    EXPECT_EQ(refused.status, 1) << command;
+    EXPECT_THAT(refused.error, HasSubstr("out.csv: is there already")) << command;
+    EXPECT_EQ(read("out.csv"), "older") << command;
+    EXPECT_EQ(credo(std::string(command) + " --force").status, 0) << command;
+    EXPECT_NE(read("out.csv"), "older") << command;
+  }
+}
+
 TEST_F(CompareCommand, ASonarLearnsFromADriveWhoseTruthIsKnown) {
   ASSERT_EQ(credo("simulate demo --out data").status, 0);
   ASSERT_EQ(credo("calibrate sonar data --out weights.yaml").status, 0);
-  EXPECT_THAT(read("weights.yaml"), HasSubstr("of 1 datasets"));
+  EXPECT_THAT(read("weights.yaml"), HasSubstr(" cells of 1 dataset'"));
   EXPECT_EQ(credo("map data --sensors sonar --model calibrated --sonar-weights weights.yaml --out map").status, 0);
   EXPECT_THAT(read("map/config.yaml"), HasSubstr("model: calibrated"));
   write("weights.yaml", "format: credo-sonar-weights/1\nweights: [1, 2]\n");
   EXPECT_THAT(credo("map data --model calibrated --sonar-weights weights.yaml --out m2").error,
               HasSubstr("weights.yaml:2"));
   EXPECT_THAT(credo("calibrate sonar --out none.yaml").error, HasSubstr("nothing to learn from"));
+}
+
+TEST_F(CompareCommand, ALaserLearnsFromADriveWhoseTruthIsKnown) {
+  ASSERT_EQ(credo("simulate demo --out data").status, 0);
+  ASSERT_EQ(credo("calibrate laser data --out weights.yaml").status, 0);
+  EXPECT_THAT(read("weights.yaml"),
+              AllOf(StartsWith("format: credo-laser-weights/1"), HasSubstr(" cells of 1 dataset'")));
+  const std::string with = "map data --sensors range --laser-model calibrated --laser-weights weights.yaml --out ";
+  EXPECT_EQ(credo(with + "map").status, 0);
+  EXPECT_THAT(read("map/config.yaml"),
+              AllOf(HasSubstr("model: calibrated"), HasSubstr("alone:"), HasSubstr("free_weight: ")));
+  const std::string learned = read("weights.yaml");
+  const auto spoilt = [&](const std::string& key, const std::string& line) {
+    std::string text = learned;
+    const std::size_t begin = text.find(key + ":");
+    write("weights.yaml", text.replace(begin, text.find('\n', begin) - begin, line));
+    return credo(with + "m2").error;
+  };
+  EXPECT_THAT(spoilt("half_width", "half_width: {least: 3, sigmas: 0}"),
+              HasSubstr("weights.yaml:4: half_width may not be above free_margin"));
+  EXPECT_THAT(spoilt("free_weight", "free_weight: -1"), HasSubstr("weights.yaml:6"));
+  EXPECT_THAT(spoilt("free_weight", "weight: 1"), HasSubstr("weights.yaml:6"));
+  EXPECT_THAT(spoilt("alone", "by_itself:"), HasSubstr("by_itself"));
+  EXPECT_EQ(credo("map data --laser-model li2007").status, 2);
+  EXPECT_THAT(credo("calibrate laser --out none.yaml").error, HasSubstr("nothing to learn from"));
 }
 
 }  // namespace

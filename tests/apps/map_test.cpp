@@ -164,7 +164,9 @@ TEST_F(Command, AnOptionOfAMapThatWouldHaveNoEffectIsRefused) {
   ASSERT_EQ(credo("simulate small.yaml --out data --seed 3").status, 0);
   for (const auto& [with, said] :
        {std::pair{"--model su --printed", "has one form only"},
+        std::pair{"--laser-model calibrated --printed", "'calibrated' has one form only"},
         std::pair{"--sonar-weights nofile", "add --model calibrated"},
+        std::pair{"--laser-weights nofile", "add --laser-model calibrated"},
         std::pair{"--rule pcr2 --readout raw", "as they are"}, std::pair{"--rule pcr2 --large", "read out at once"}}) {
     const Answer answer = credo(std::string("map data --out none ") + with);
     EXPECT_EQ(answer.status, 1) << with;

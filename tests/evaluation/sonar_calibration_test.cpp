@@ -41,8 +41,8 @@ TEST(SonarCalibration, ATruthOfKilometresIsRefusedBeforeRoomIsMadeForIt) {
 
 TEST(SonarCalibration, NothingIsLearnedFromNothing) {
   EXPECT_THROW(static_cast<void>(SonarCalibration{}.fit()), std::invalid_argument);
-  EXPECT_THROW(SonarCalibration({.ridge = 0.0}), std::invalid_argument);
-  EXPECT_THROW(SonarCalibration({.empty_stride = 0}), std::invalid_argument);
+  EXPECT_THROW(SonarCalibration({.regression = {.ridge = 0.0}}), std::invalid_argument);
+  EXPECT_THROW(SonarCalibration({.empty_stride = 0, .regression = {}}), std::invalid_argument);
 }
 
 }  // namespace

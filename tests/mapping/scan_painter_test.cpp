@@ -52,7 +52,7 @@ TEST(MapperLaser, EveryCellGetsTheEvidenceOfItsBeamOnce) {
   finder.angle_min_rad = -2.0;
   finder.count = 229;  // leaves a gap behind
   MapperParams params;
-  params.laser.free_sigmas = params.laser.hit_sigmas = 0.0;
+  params.laser = Li2006LaserParams{.free_sigmas = 0.0, .hit_sigmas = 0.0};
   params.scan.min_incidence_rad = 1.57;  // no two beams on one surface: sectors are plain
   Mapper mapper(rig_with(finder), params);
   std::mt19937 random(7);

@@ -41,8 +41,6 @@ inline World ideal_room() {
 }
 
 /// The file of a world that is shipped.
-inline std::string shipped(const std::string& name) {
-  return CREDO_SOURCE_DIR "/sim/worlds/" + name + ".yaml";
-}
+inline std::string shipped(const std::string& name) { return CREDO_SOURCE_DIR "/sim/worlds/" + name + ".yaml"; }
 
 }  // namespace credo::sim
