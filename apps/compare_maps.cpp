@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -79,6 +80,13 @@ std::vector<std::string> all_laser_models() {
 std::vector<std::string> all_rules() {
   std::vector<std::string> names;
   for (const mapping::NamedRule& rule : mapping::map_rules()) names.emplace_back(rule.name);
+  return names;
+}
+
+/// Each name once, where it is first.
+std::vector<std::string> once_each(std::vector<std::string> names) {
+  for (auto name = names.begin(); name != names.end(); ++name)
+    names.erase(std::remove(name + 1, names.end(), *name), names.end());
   return names;
 }
 
@@ -289,7 +297,10 @@ void add_compare_maps(CLI::App& compare) {
   add_force_option(*command, o->out, "a table");
   command->add_option("--pictures", o->pictures, "a new folder for maps.png, all maps side by side")->check(a_path());
   add_format_option(*command, o->format);
-  command->callback([o] { execute(*o); });
+  command->callback([o] {
+    for (std::vector<std::string>* names : {&o->models, &o->laser_models, &o->rules}) *names = once_each(*names);
+    execute(*o);
+  });
 }
 
 }  // namespace credo::apps

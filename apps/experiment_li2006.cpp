@@ -139,10 +139,9 @@ MapReport reproduce_li2006(const ExperimentParams& params, const Report& report)
     add_drive(moved, methods, ego.drive, i == 0 ? &result.maps : nullptr, made);
     add_drive(exact, methods, evaluation::play_for_mapping(world, seed), nullptr, made);
   }
-  result.heading = fmt::format(
-      "Li X. 2006: 20 m x 20 m, 16 sonars and a laser of 181 beams, \"Z\" exploration, cells of 10 cm; {} "
-      "seeds from {}",
-      params.seeds, params.seed);
+  result.heading =
+      fmt::format("Li X. 2006: 20 m x 20 m, 16 sonars and a laser of 181 beams, \"Z\" exploration, cells of 10 cm; {}",
+                  params.seeds_text());
   result.tables = {moved, exact, poses};
   result.notes = kSensedNotes;
   return result;

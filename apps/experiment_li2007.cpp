@@ -170,8 +170,8 @@ MapReport reproduce_li2007(const ExperimentParams& params, const Report& report)
   int done = 0;
   const auto made = [&] { report(++done, maps); };
   MapReport result;
-  result.heading = fmt::format("Li X. 2007: a room of 4.55 m x 3.75 m, 16 sonars, cells of 5 cm; {} seeds from {}",
-                               params.seeds, params.seed);
+  result.heading =
+      fmt::format("Li X. 2007: a room of 4.55 m x 3.75 m, 16 sonars, cells of 5 cm; {}", params.seeds_text());
   RoomTables tables = empty_tables(all);
   std::vector<MapDrive> drives;
   for (int i = 0; i < params.seeds; ++i) {

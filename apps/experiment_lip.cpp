@@ -118,9 +118,8 @@ MapReport reproduce_lip(const ExperimentParams& params, const Report& report) {
   const int steps = params.seeds * static_cast<int>(all.size() + 1);
   int done = 0;
   MapReport result;
-  result.heading =
-      fmt::format("Li P.: a room of 13 m x 8 m, two robots with 16 sonars each, 70 s, cells of 5 cm; {} seeds from {}",
-                  params.seeds, params.seed);
+  result.heading = fmt::format("Li P.: a room of 13 m x 8 m, two robots with 16 sonars each, 70 s, cells of 5 cm; {}",
+                               params.seeds_text());
   MapTable table = empty_table(all);
   MapTable orders{"the centre's map in another order of arrival: cells decided differently than by time",
                   {{"I, then II", 0}, {"II, then I", 0}},

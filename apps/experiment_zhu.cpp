@@ -149,8 +149,7 @@ MapReport reproduce_zhu(const ExperimentParams& params, const Report& report) {
   const std::vector<ZhuSetting> all = zhu_settings();
   MapReport result;
   const WrongByCriterion wrong_cells = sweep_settings(params, all, result.maps, report);
-  result.heading = fmt::format("Zhu: 9 m x 7 m, five sonars in two groups, cells of 5 cm; {} seeds from {}",
-                               params.seeds, params.seed);
+  result.heading = fmt::format("Zhu: 9 m x 7 m, five sonars in two groups, cells of 5 cm; {}", params.seeds_text());
   result.tables = {claim_table(wrong_cells), own_best_table(wrong_cells, all)};
   for (const Criterion criterion : kCriteria)
     result.tables.push_back(equal_parameters(wrong_cells[criterion], all, criterion));

@@ -181,6 +181,15 @@ bool write_map_files(const MapOptions& o, const mapping::TrajectoryMap& made, st
   return drawn;
 }
 
+/// Of the sensors that were mapped with: "li2007, laser li2006".
+std::string models_text(const MapOptions& o, const mapping::MappingCounts& counts) {
+  std::string text;
+  if (counts.sweeps > 0) text = mapping::name_of(o.params.mapper.sonar);
+  if (counts.scans > 0)
+    text += (text.empty() ? "laser " : ", laser ") + std::string(mapping::name_of(o.params.mapper.laser));
+  return text;
+}
+
 bool write_map_files(const MapOptions& o, const mapping::RuleMap& made, std::span<const geometry::Pose2>,
                      const fs::path& folder, const std::optional<PictureFolder>& pictures) {
   const bool trinary = o.files.mode() == datasets::MapMode::kTrinary;
@@ -189,7 +198,7 @@ bool write_map_files(const MapOptions& o, const mapping::RuleMap& made, std::spa
   results::write_belief_tiff(results::belief_image(made.map), folder / "map_belief.tiff");
   if (!made.history.empty()) results::write_cell_history(made.history, made.map.georeference, folder / "history.csv");
   if (!pictures) return true;
-  const std::string title = std::string(mapping::name_of(o.params.mapper.sonar)) + " " + o.rule;
+  const std::string title = models_text(o, made.counts) + " " + o.rule;
   results::write_png(pictures->path() / "map.png",
                      results::map_sheet(std::array{results::SheetMap{title, "", &made.map}}));
   results::write_cell_history_pictures(made.history, made.map.box, pictures->path());

@@ -72,6 +72,10 @@ ordered_json json_of(const Spread& spread, const MapColumn& column) {
 
 }  // namespace
 
+std::string ExperimentParams::seeds_text() const {
+  return seeds == 1 ? fmt::format("seed {}", seed) : fmt::format("{} seeds from {}", seeds, seed);
+}
+
 std::string to_text(const MapReport& report) {
   std::string text = report.heading + "\n\n";
   for (const MapTable& table : report.tables) text += table_text(table) + "\n";

@@ -48,6 +48,8 @@ struct MapReport {
 struct ExperimentParams {
   std::uint64_t seed = 1;  ///< the first
   int seeds = 5;           ///< one after the other
+
+  [[nodiscard]] std::string seeds_text() const;  ///< "5 seeds from 1", "seed 7"
 };
 
 /// Is told that one more of so many maps is made.
