@@ -159,15 +159,24 @@ TEST(PoseBlur, FoldsBlurASonarsMasses) {
     EXPECT_EQ(mapper.counts(), (MappingCounts{.sweeps = 1, .echoes = 1}));
     return mapper.masses();
   };
-  const grids::MassMap sharp = masses(certain({})), blurred = masses(with_sigma({}, 0.1, 0.0));
-  EXPECT_GT(blurred.box.height, sharp.box.height);
-  const auto near = [](const grids::MassMap& map) { return map.at({6, 0}); };  // a third of the way
-  EXPECT_GT(near(blurred).empty, 0.8 * near(sharp).empty);
-  EXPECT_NEAR(near(blurred).empty + near(blurred).occupied + near(blurred).conflict + near(blurred).unknown, 1.0,
-              1e-12);
-  const auto beyond = [](const grids::MassMap& map) { return map.at({24, 0}).occupied; };  // 20 cm behind the echo
-  EXPECT_LT(beyond(sharp), 1e-3);
-  EXPECT_GT(beyond(blurred), 1e-2);
+  const auto unsure = with_sigma({}, 0.1, 0.0);
+  const grids::MassMap blurred = masses(unsure);
+  const std::vector<Believed<PoseEstimate>> poses = poses_of(unsure, 1.0F);
+  std::vector<grids::MassMap> from_each;
+  for (const auto& pose : poses) from_each.push_back(masses(certain(pose.value.pose)));
+  for (const grids::CellIndex cell : {grids::CellIndex{6, 0}, {15, 1}, {20, 0}, {24, -3}}) {
+    evidence::GridMass mean{.empty = 0.0, .occupied = 0.0, .conflict = 0.0, .unknown = 0.0};
+    for (const grids::MassMap& map : from_each) {
+      const evidence::GridMass mass = map.saw(cell) ? map.at(cell) : evidence::GridMass::vacuous();
+      mean.empty += mass.empty / static_cast<double>(poses.size());
+      mean.occupied += mass.occupied / static_cast<double>(poses.size());
+      mean.unknown += mass.unknown / static_cast<double>(poses.size());
+    }
+    EXPECT_GT(mean.empty + mean.occupied, 0.01);
+    EXPECT_NEAR(blurred.at(cell).empty, mean.empty, 1e-6);
+    EXPECT_NEAR(blurred.at(cell).occupied, mean.occupied, 1e-6);
+    EXPECT_NEAR(blurred.at(cell).unknown, mean.unknown, 1e-6);
+  }
 }
 
 TEST(PoseBlur, CountsReadingsOnce) {
