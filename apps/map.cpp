@@ -9,7 +9,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -19,16 +18,13 @@
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/map_extent.hpp"
-#include "apps/map_files_options.hpp"
+#include "apps/map_making.hpp"
 #include "apps/map_saturation.hpp"
-#include "apps/map_source.hpp"
 #include "apps/option_checks.hpp"
-#include "apps/output.hpp"
 #include "apps/picture_folder.hpp"
 #include "apps/terminal.hpp"
 #include "datasets/map_server.hpp"
 #include "datasets/trajectory.hpp"
-#include "mapping/judge_instruments.hpp"
 #include "mapping/map_rule.hpp"
 #include "mapping/mapper.hpp"
 #include "results/belief_tiff.hpp"
@@ -44,90 +40,6 @@ namespace credo::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct MapOptions {
-  MapSource from;
-  SonarChoice sonar;
-  LaserChoice laser;
-  bool printed = false;
-  std::string rule;  ///< empty: the map that no order changes, of which most rules are read-outs
-  std::string out, pictures;
-  MapFilesOptions files;
-  bool large = false;
-  bool force = false;
-  mapping::TrajectoryMappingParams params;
-  OutputFormat format;
-};
-
-using Made = std::variant<mapping::TrajectoryMap, mapping::RuleMap>;
-
-void require_fits(const MapOptions& o, const std::vector<MapPart>& parts) {
-  Eigen::AlignedBox2d ground;
-  for (const MapPart& part : parts) ground.extend(seen_ground(part.path, part.rig, part.scans, part.sweeps, o.params));
-  if (!o.large) require_map_fits(ground, o.params.mapper.georeference.resolution_m);
-}
-
-mapping::RuleMap build_by_rule(const MapOptions& o, const std::vector<MapPart>& parts) {
-  if (parts.size() > 1)
-    throw std::runtime_error(
-        "--rule takes readings in one after the other, so they need poses of one frame: this log "
-        "has some for each sensor; give them with --poses");
-  Progress progress("mapping");
-  const MapPart& part = parts.front();
-  return mapping::map_along(part.path, part.rig, part.scans, part.sweeps, o.params, mapping::map_rule(o.rule).rule,
-                            [&](double share) {
-                              Interruptible::check();
-                              progress.update(share);
-                            });
-}
-
-/// Without several there is nobody to judge one by.
-bool has_several_instruments(const std::vector<MapPart>& parts) {
-  std::set<int> finders;
-  for (const MapPart& part : parts) {
-    if (!part.sweeps.empty()) return true;
-    for (const sensors::RangeScan& scan : part.scans) finders.insert(scan.sensor);
-  }
-  return finders.size() > 1;
-}
-
-/// The map, and what each instrument said: kept apart where there are several, unless the map is large.
-mapping::TrajectoryMap build_sum(const MapOptions& o, const std::vector<MapPart>& parts,
-                                 std::vector<mapping::InstrumentMap>& by_instrument) {
-  mapping::TrajectoryMap map{.grid = grids::EvidentialGrid(o.params.mapper.georeference), .counts = {}};
-  const bool apart = !o.large && has_several_instruments(parts);
-  Progress progress("mapping");
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto report = [&](double share) {
-      Interruptible::check();
-      progress.update((static_cast<double>(i) + share) / static_cast<double>(parts.size()));
-    };
-    const MapPart& part = parts[i];
-    if (apart) {
-      mapping::InstrumentMaps one =
-          mapping::map_by_instrument(part.path, part.rig, part.scans, part.sweeps, o.params, report);
-      map.counts += one.counts;
-      map.without_pose += one.without_pose;
-      for (mapping::InstrumentMap& of : one.maps) {
-        map.grid.merge(of.grid);
-        by_instrument.push_back(std::move(of));
-      }
-      continue;
-    }
-    const mapping::TrajectoryMap one =
-        mapping::map_along(part.path, part.rig, part.scans, part.sweeps, o.params, report);
-    map.grid.merge(one.grid);
-    map.counts += one.counts;
-    map.without_pose += one.without_pose;
-  }
-  return map;
-}
-
-Made build(const MapOptions& o, const std::vector<MapPart>& parts, std::vector<mapping::InstrumentMap>& by_instrument) {
-  require_fits(o, parts);
-  if (o.rule.empty()) return build_sum(o, parts, by_instrument);
-  return build_by_rule(o, parts);
-}
 
 /// Time from the first to the last of some rows, for a message.
 struct TimeSpan {
@@ -205,11 +117,12 @@ bool write_map_files(const MapOptions& o, const mapping::RuleMap& made, std::spa
   return true;
 }
 
-void write(const MapOptions& o, const Made& made, const std::vector<MapPart>& parts, const std::string& poses,
+void write(const MapOptions& o, const MadeMap& made, const std::vector<MapPart>& parts, const std::string& poses,
            const fs::path& folder, const std::optional<PictureFolder>& pictures) {
   std::vector<geometry::Pose2> way;
   for (const auto& row : parts.front().path.rows()) way.push_back(row.T_odom_base);
-  const bool drawn = std::visit([&](const auto& map) { return write_map_files(o, map, way, folder, pictures); }, made);
+  const bool drawn =
+      std::visit([&](const auto& map) { return write_map_files(o, map, way, folder, pictures); }, made.map);
   std::string config = results::to_yaml(o.params, CREDO_VERSION, o.from.source, poses);
   if (!o.rule.empty()) config += "rule: " + o.rule + "\n";
   results::write_text(folder / "config.yaml", config);
@@ -228,14 +141,9 @@ nlohmann::ordered_json json_of(const std::vector<mapping::InstrumentVerdict>& ve
   return all;
 }
 
-grids::CellBox box_of(const Made& made) {
-  if (const auto* sum = std::get_if<mapping::TrajectoryMap>(&made)) return sum->grid.bounding_box();
-  return std::get<mapping::RuleMap>(made).map.box;
-}
-
 /// How many cells changed; empty where the rule does not know.
-std::string changes_text(const Made& made) {
-  const auto* by_rule = std::get_if<mapping::RuleMap>(&made);
+std::string changes_text(const MadeMap& made) {
+  const auto* by_rule = std::get_if<mapping::RuleMap>(&made.map);
   if (by_rule == nullptr || by_rule->history.empty()) return {};
   const auto changed =
       std::ranges::count_if(by_rule->history, [](const mapping::CellHistory& row) { return row.changes > 0; });
@@ -283,18 +191,16 @@ void execute(MapOptions o) {
   datasets::StagedFolder folder = results::stage_results(o.out, o.force);
   std::optional<PictureFolder> pictures;
   if (!o.pictures.empty()) pictures.emplace(o.pictures, o.out, folder.path(), o.force);
-  std::vector<mapping::InstrumentMap> by_instrument;
-  const Made made = about(o.from.source, [&] { return build(o, parts, by_instrument); });
-  const auto [counts, without_pose] =
-      std::visit([](const auto& map) { return std::pair(map.counts, map.without_pose); }, made);
+  const MadeMap made = about(o.from.source, [&] { return make_map(o, parts); });
+  const mapping::MappingCounts& counts = made.counts();
+  const std::int64_t without_pose = made.without_pose();
   check_overlap(o, parts, counts, without_pose, poses);
   warn_of_empty(counts);
-  if (const auto* sum = std::get_if<mapping::TrajectoryMap>(&made)) warn_of_saturation(sum->grid);
+  if (const auto* sum = std::get_if<mapping::TrajectoryMap>(&made.map)) warn_of_saturation(sum->grid);
   about(o.from.source, [&] { write(o, made, parts, poses, folder.path(), pictures); });
   Interruptible::check();
   folder.commit();
-  const grids::CellBox box = box_of(made);
-  const std::vector<mapping::InstrumentVerdict> verdicts = mapping::judge_instruments(by_instrument);
+  const grids::CellBox box = made.box();
   if (o.format.json()) {
     print(nlohmann::ordered_json{{"map", o.out},
                                  {"poses", poses},
@@ -306,7 +212,7 @@ void execute(MapOptions o) {
                                  {"width", box.width},
                                  {"height", box.height},
                                  {"resolution_m", o.params.mapper.georeference.resolution_m},
-                                 {"instruments", json_of(verdicts)}});
+                                 {"instruments", json_of(made.verdicts)}});
     return;
   }
   std::printf("mapped %lld scans and %lld sonar sweeps with %s; %lld readings had no pose near in time\n",
@@ -315,7 +221,7 @@ void execute(MapOptions o) {
   std::printf("map: %s (%d x %d cells of %g m)\n", o.out.c_str(), box.width, box.height,
               o.params.mapper.georeference.resolution_m);
   if (const std::string changed = changes_text(made); !changed.empty()) std::printf("%s\n", changed.c_str());
-  if (!verdicts.empty()) std::printf("instruments: %s\n", mapping::summary(verdicts).c_str());
+  if (!made.verdicts.empty()) std::printf("instruments: %s\n", mapping::summary(made.verdicts).c_str());
   if (!o.pictures.empty()) std::printf("pictures: %s\n", o.pictures.c_str());
 }
 
@@ -333,6 +239,7 @@ void add_method_options(CLI::App& command, MapOptions& o) {
   command.add_flag("--printed", o.printed, "the models' formulas as printed instead of as resolved");
   add_laser_weights_option(command, o.laser);
   add_sonar_weights_option(command, o.sonar);
+  add_reliability_option(command, o.reliability);
   std::vector<std::string> rules;
   for (const mapping::NamedRule& rule : mapping::map_rules()) rules.emplace_back(rule.name);
   command
@@ -353,6 +260,7 @@ void add_map(CLI::App& app) {
       "  credo map intel.log.gz --poses ego --lines hough --out results/intel_hough\n"
       "  credo map datasets/room --sensors sonar --model calibrated                another sonar model\n"
       "  credo map datasets/office --sensors range --laser-model calibrated        another laser model\n"
+      "  credo map datasets/office --reliability range=0.9,sonar=0.5,sonar/0/3=0   the fourth sonar is broken\n"
       "  credo map datasets/room --sensors sonar --model zhu --rule adaptive       and another rule");
   auto o = std::make_shared<MapOptions>();
   add_map_source_options(*command, o->from);

@@ -65,6 +65,29 @@ TEST_F(Command, OfALogOnlyTheSensorsAskedForAreMapped) {
   }
 }
 
+TEST_F(Command, InstrumentsAreTrustedAsGivenOrAsJudged) {
+  write("log", kLogWithSonar);
+  ASSERT_EQ(credo("map log --sensors range --out laser").status, 0);
+  ASSERT_EQ(credo("map log --out deaf --reliability sonar=0.5,sonar/0=0").status, 0);
+  EXPECT_EQ(read("deaf/map_belief.tiff"), read("laser/map_belief.tiff"));
+  EXPECT_THAT(read("deaf/config.yaml"), HasSubstr("transducers: [0, 0, 0]"));
+  ASSERT_EQ(credo("map log --out given --reliability range=0.9,sonar=0.5,sonar/0/1=0.25").status, 0);
+  EXPECT_THAT(read("given/config.yaml"),
+              AllOf(HasSubstr("transducers: [0.5, 0.25, 0.5]"), HasSubstr("finders: [0.9]")));
+  EXPECT_NE(read("given/map_belief.tiff"), read("laser/map_belief.tiff"));
+  write("still.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(credo("map log --poses still.tum --out judged --reliability judged --rule pcr2").status, 0);
+  EXPECT_THAT(read("judged/config.yaml"), Not(HasSubstr("transducers: []")));
+  EXPECT_THAT(credo("map log --sensors range --out none --reliability judged").error, HasSubstr("no other to judge"));
+  for (const char* wrong : {"sonar", "sonar=2", "sonar=", "sonar=x", "camera=1", "sonar/9=1", "sonar/0/9=1",
+                            "range/1=1", "sonar/x=1", "sonar/0/0/0=1", "range/0/0=1", "judged,sonar=1"}) {
+    const Answer answer = credo("map log --out none --reliability " + std::string(wrong));
+    EXPECT_EQ(answer.status, 1) << wrong;
+    EXPECT_THAT(answer.error, HasSubstr("expected judged, or NAME=SHARE")) << wrong;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "none"));
+}
+
 TEST_F(Command, AMapOfNothingIsSaidToBeOne) {
   write("nothing.log", "FLASER 4 nan nan nan nan 0 0 0 0 0 0 1.2 host 1.2\n");
   const Answer answer = credo("map nothing.log --out out");
