@@ -46,20 +46,22 @@ Learned read_learned(const std::string& path, const std::string& sensor) {
   return {std::move(read.parts.front()), datasets::read_map(*dataset.truth_map)};
 }
 
-void add_dataset(evaluation::SonarCalibration& calibration, const std::string& path) {
+void add_dataset(evaluation::SonarCalibration& calibration, const std::string& path,
+                 const evaluation::CalibrationProgress& progress) {
   const Learned learned = read_learned(path, "sonar");
   const MapPart& part = learned.part;
   if (part.rig.sonar_rings.size() != 1 || part.sweeps.empty())
     throw std::runtime_error(path + ": expected readings of one sonar ring");
-  about(path, [&] { calibration.add(part.path, part.rig.sonar_rings.front(), part.sweeps, learned.truth); });
+  about(path, [&] { calibration.add(part.path, part.rig.sonar_rings.front(), part.sweeps, learned.truth, progress); });
 }
 
-void add_dataset(evaluation::LaserCalibration& calibration, const std::string& path) {
+void add_dataset(evaluation::LaserCalibration& calibration, const std::string& path,
+                 const evaluation::CalibrationProgress& progress) {
   const Learned learned = read_learned(path, "range");
   const MapPart& part = learned.part;
   if (part.rig.range_finders.size() != 1 || part.scans.empty())
     throw std::runtime_error(path + ": expected readings of one range finder");
-  about(path, [&] { calibration.add(part.path, part.rig.range_finders.front(), part.scans, learned.truth); });
+  about(path, [&] { calibration.add(part.path, part.rig.range_finders.front(), part.scans, learned.truth, progress); });
 }
 
 void write(const std::string& file, const std::vector<double>& weights, const std::string& source) {
@@ -96,22 +98,22 @@ void execute(const CalibrateOptions& o) {
   const Interruptible interruptible;
   Calibration calibration;
   Progress progress("calibrating");
-  const double all = static_cast<double>(o.datasets.size()) + o.worlds;
+  const double all = static_cast<double>(o.datasets.size()) + o.worlds + 1.0;  // the fit, too
   double done = 0.0;
-  const auto report = [&] {
+  const auto report = [&](double share) {
     Interruptible::check();
-    progress.update(++done / all);
+    progress.update((done + share) / all);
   };
   for (const std::string& path : o.datasets) {
-    add_dataset(calibration, path);
-    report();
+    add_dataset(calibration, path, report);
+    ++done;
   }
   for (int i = 0; i < o.worlds; ++i) {
-    evaluation::add_simulated_drive(calibration, o.seed + static_cast<std::uint64_t>(i));
-    report();
+    evaluation::add_simulated_drive(calibration, o.seed + static_cast<std::uint64_t>(i), {}, report);
+    ++done;
   }
   const std::string source = source_of(o, calibration.cells());
-  const auto learned = about("calibration", [&] { return calibration.fit(); });
+  const auto learned = about("calibration", [&] { return calibration.fit(report); });
   write(o.out.path, learned, source);
   std::printf("weights: %s, from %s\n", o.out.path.c_str(), source.c_str());
 }

@@ -35,15 +35,16 @@ class LaserCalibration {
   /// \param T_map_base  the poses of the drive. \param finder  of the rig, whose scans these are
   /// \throws std::length_error if the truth has more than TrueCells::kMostCells
   void add(const sensors::MotionPath& T_map_base, const sensors::RangeFinder& finder,
-           std::span<const sensors::RangeScan> scans, const datasets::OccupancyMap& truth);
+           std::span<const sensors::RangeScan> scans, const datasets::OccupancyMap& truth,
+           const CalibrationProgress& progress = {});
 
   [[nodiscard]] std::int64_t cells() const { return static_cast<std::int64_t>(cells_.size()); }
 
   /// The weights and lengths under which the states of all cells are likeliest: a logistic regression for each pair of
-  /// lengths, one length improved after the other; with these lengths another one, whose rows are the cells of single
-  /// scans that are beside walls, for the weights of a reading by itself. \throws std::invalid_argument if no cell was
-  /// learned from
-  [[nodiscard]] mapping::CalibratedLaserParams fit() const;
+  /// lengths, one length improved after the other, with a ridge that draws the weights of all hits together; with these
+  /// lengths another one, whose rows are the cells of single scans that are beside walls, for the weights of a reading
+  /// by itself. \throws std::invalid_argument if no cell was learned from
+  [[nodiscard]] mapping::CalibratedLaserParams fit(const CalibrationProgress& progress = {}) const;
 
   /// How often the weights count in a cell.
   struct Cell {
@@ -65,7 +66,8 @@ class LaserCalibration {
   };
 
   [[nodiscard]] LogisticRegression::Fit fit_with(std::size_t margin, std::size_t half_width) const;
-  [[nodiscard]] LogisticRegression::Fit fit_alone(std::size_t margin, std::size_t half_width) const;
+  [[nodiscard]] LogisticRegression::Fit fit_alone(std::size_t margin, std::size_t half_width,
+                                                  const CalibrationProgress& progress) const;
 
   LaserCalibrationParams params_;
   std::vector<Cell> cells_;
@@ -75,8 +77,9 @@ class LaserCalibration {
 /// A drive of a range finder, alone, through a building that is drawn from a random seed.
 /// \param sigma_m  its noise at any range instead of its own; 0: its own
 [[nodiscard]] MapDrive laser_drive(std::uint64_t seed, const sim::RandomWorldParams& params = {}, double sigma_m = 0.0);
-/// In every second building the range finder is a time of flight, of 5 to 30 mm; else it is drawn among those that
+/// In every second building the range finder is a time of flight, of 5 to 80 mm; else it is drawn among those that
 /// triangulate.
-void add_simulated_drive(LaserCalibration& calibration, std::uint64_t seed, sim::RandomWorldParams params = {});
+void add_simulated_drive(LaserCalibration& calibration, std::uint64_t seed, sim::RandomWorldParams params = {},
+                         const CalibrationProgress& progress = {});
 
 }  // namespace credo::evaluation

@@ -4,7 +4,9 @@
 #include "evaluation/logistic_regression.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "evidence/parameter_check.hpp"
 
@@ -22,13 +24,30 @@ void LogisticRegression::add(std::span<const Entry> entries, bool occupied, doub
   entries_.insert(entries_.end(), entries.begin(), entries.end());
 }
 
-LogisticRegression::Fit LogisticRegression::fit() const {
+LogisticRegression LogisticRegression::pooled(std::span<const std::uint32_t> pools) const {
+  LogisticRegression result(std::ranges::max(pools) + std::size_t{1}, params_);
+  std::vector<float> counts(result.weights_, 0.0F);
+  for (const Row& row : rows_) {
+    Row& pooled = result.rows_.emplace_back(row);
+    pooled.begin = result.entries_.size();
+    for (const Entry& entry : std::span(entries_).subspan(row.begin, row.end - row.begin))
+      counts[pools[entry.weight]] += entry.count;
+    for (std::uint32_t pool = 0; pool < counts.size(); ++pool)
+      if (const float count = std::exchange(counts[pool], 0.0F); count > 0.0F) result.entries_.push_back({pool, count});
+    pooled.end = result.entries_.size();
+  }
+  return result;
+}
+
+LogisticRegression::Fit LogisticRegression::fit(std::span<const double> towards) const {
   const auto n = static_cast<Eigen::Index>(weights_);
   constexpr double kSmallStep = 1e-6, kLargestStep = 1.0;
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXd centre = Eigen::VectorXd::Zero(n);
+  std::ranges::copy(towards, centre.begin());
+  Eigen::VectorXd weights = centre;
   double loss = 0.0;
   for (int iteration = 0; iteration < params_.most_iterations; ++iteration) {
-    Eigen::VectorXd gradient = params_.ridge * weights;
+    Eigen::VectorXd gradient = params_.ridge * (weights - centre);
     Eigen::MatrixXd hessian = params_.ridge * Eigen::MatrixXd::Identity(n, n);
     loss = 0.0;
     for (const Row& row : rows_) {

@@ -4,13 +4,17 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 namespace credo::evaluation {
 
+/// Is told now and then the share of the work at hand that is done; what it throws ends the work.
+using CalibrationProgress = std::function<void(double share)>;
+
 struct LogisticParams {
-  double ridge = 3.0;  ///< weights are as small as 1/sqrt(this) unless the rows say otherwise
+  double ridge = 3.0;  ///< weights are within 1/sqrt(this) of what they are drawn to unless the rows say otherwise
   int most_iterations = 50;
 };
 
@@ -33,8 +37,13 @@ class LogisticRegression {
   void add(std::span<const Entry> entries, bool occupied, double count);
   [[nodiscard]] std::int64_t rows() const { return static_cast<std::int64_t>(rows_.size()); }
 
+  /// The same rows with weights that are one: what each counts goes to its pool.
+  /// \param pools  of each weight, from 0. Precondition: one for each weight
+  [[nodiscard]] LogisticRegression pooled(std::span<const std::uint32_t> pools) const;
+
   /// The likeliest weights, by Newton's method.
-  [[nodiscard]] Fit fit() const;
+  /// \param towards  what the ridge draws each weight to: its value where no row says anything; empty: 0
+  [[nodiscard]] Fit fit(std::span<const double> towards = {}) const;
 
  private:
   struct Row {

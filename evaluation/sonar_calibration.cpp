@@ -26,7 +26,7 @@ class Counts {
   Counts(const datasets::OccupancyMap& truth, const grids::Georeference& georeference, int empty_stride)
       : georeference_(georeference),
         truth_(truth, georeference, box_of(truth, georeference)),
-        rows_(static_cast<std::size_t>(truth_.box().width) * static_cast<std::size_t>(truth_.box().height), -1) {
+        rows_(static_cast<std::size_t>(truth_.box().width) * static_cast<std::size_t>(truth_.box().height), kNone) {
     int empty = 0;
     const CellBox& box = truth_.box();
     for (int y = box.min.y; y < box.min.y + box.height; ++y)
@@ -36,10 +36,8 @@ class Counts {
         const bool open =
             truth_.at(cell) == State::kEmpty && !truth_.near(cell, State::kOccupied, 1) && empty++ % empty_stride == 0;
         if (!wall && !open) continue;
-        rows_[place(cell)] = static_cast<int>(occupied_.size());
-        occupied_.push_back(wall);
+        rows_[place(cell)] = wall ? kWallUnseen : kOpenUnseen;
       }
-    counts_.assign(occupied_.size() * SonarKnots::kCount, 0.0F);
   }
 
   void take_in(const mapping::PlacedReading& reading, const sensors::SonarRing& ring) {
@@ -53,8 +51,8 @@ class Counts {
       const mapping::CellRun run = fan.run(row);
       for (int column = run.begin; column < run.end; ++column) {
         const CellIndex cell{column, row};
-        if (!truth_.box().contains(cell) || rows_[place(cell)] < 0) continue;
-        float* counts = &counts_[static_cast<std::size_t>(rows_[place(cell)]) * SonarKnots::kCount];
+        if (!truth_.box().contains(cell) || rows_[place(cell)] == kNone) continue;
+        float* counts = &counts_[row_of(cell) * SonarKnots::kCount];
         const Eigen::Vector2d there = T_transducer_map * georeference_.centre(cell);
         const double rho_m = there.norm(), off_axis = std::abs(std::atan2(there.y(), there.x())) / half_width_rad;
         const auto count = [&](std::size_t i, double share) { counts[i] += static_cast<float>(share); };
@@ -73,6 +71,18 @@ class Counts {
   }
 
  private:
+  static constexpr int kNone = -1, kWallUnseen = -2, kOpenUnseen = -3;
+
+  /// Of a cell that is learned from: its own, made when it is first seen.
+  [[nodiscard]] std::size_t row_of(CellIndex cell) {
+    int& row = rows_[place(cell)];
+    if (row < 0) {
+      occupied_.push_back(row == kWallUnseen);
+      row = static_cast<int>(occupied_.size()) - 1;
+      counts_.resize(occupied_.size() * SonarKnots::kCount, 0.0F);
+    }
+    return static_cast<std::size_t>(row);
+  }
   [[nodiscard]] std::size_t place(CellIndex cell) const {
     const CellBox& box = truth_.box();
     return static_cast<std::size_t>(cell.y - box.min.y) * static_cast<std::size_t>(box.width) +
@@ -81,7 +91,7 @@ class Counts {
 
   grids::Georeference georeference_;
   TrueCells truth_;
-  std::vector<int> rows_;  ///< by cell; -1: not learned from
+  std::vector<int> rows_;  ///< by cell, or kNone: not learned from, or what it is where no reading spoke of it
   std::vector<bool> occupied_;
   std::vector<float> counts_;
 };
@@ -96,14 +106,17 @@ SonarCalibration::SonarCalibration(const SonarCalibrationParams& params)
 }
 
 void SonarCalibration::add(const sensors::MotionPath& T_map_base, const sensors::SonarRing& ring,
-                           std::span<const sensors::SonarSweep> sweeps, const datasets::OccupancyMap& truth) {
+                           std::span<const sensors::SonarSweep> sweeps, const datasets::OccupancyMap& truth,
+                           const CalibrationProgress& progress) {
   const grids::Georeference georeference{.resolution_m = params_.resolution_m};
   Counts counts(truth, georeference, params_.empty_stride);
   sensors::Rig rig;
   rig.sonar_rings = {ring};
   mapping::MappingCounts ignored;
   std::vector<mapping::PlacedReading> placed;
+  double done = 0.0;
   for (const sensors::SonarSweep& sweep : sweeps) {
+    if (progress) progress(done++ / static_cast<double>(sweeps.size()));
     mapping::place_sweep(
         rig, georeference, {},
         {{T_map_base.pose_at(sweep.time), Eigen::Matrix3d::Zero()}, {.yes = 1.0, .no = 0.0, .unknown = 0.0}}, sweep,
@@ -120,8 +133,9 @@ void SonarCalibration::add(const sensors::MotionPath& T_map_base, const sensors:
   });
 }
 
-std::vector<double> SonarCalibration::fit() const {
+std::vector<double> SonarCalibration::fit(const CalibrationProgress& progress) const {
   if (cells() == 0) throw std::invalid_argument("sonar calibration: no reading was of a cell whose truth is known");
+  if (progress) progress(0.0);
   return regression_.fit().weights;
 }
 
@@ -133,9 +147,10 @@ MapDrive sonar_drive(std::uint64_t seed, const sim::RandomWorldParams& params) {
   return play_for_mapping(world, seed);
 }
 
-void add_simulated_drive(SonarCalibration& calibration, std::uint64_t seed, const sim::RandomWorldParams& params) {
+void add_simulated_drive(SonarCalibration& calibration, std::uint64_t seed, const sim::RandomWorldParams& params,
+                         const CalibrationProgress& progress) {
   const MapDrive drive = sonar_drive(seed, params);
-  calibration.add(drive.T_map_base, drive.rig.sonar_rings.front(), drive.sweeps, drive.truth);
+  calibration.add(drive.T_map_base, drive.rig.sonar_rings.front(), drive.sweeps, drive.truth, progress);
 }
 
 }  // namespace credo::evaluation

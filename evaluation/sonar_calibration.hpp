@@ -31,13 +31,14 @@ class SonarCalibration {
   /// \param T_map_base  the poses of the drive. \param ring  of the rig, whose sweeps these are
   /// \throws std::length_error if the truth has more than TrueCells::kMostCells
   void add(const sensors::MotionPath& T_map_base, const sensors::SonarRing& ring,
-           std::span<const sensors::SonarSweep> sweeps, const datasets::OccupancyMap& truth);
+           std::span<const sensors::SonarSweep> sweeps, const datasets::OccupancyMap& truth,
+           const CalibrationProgress& progress = {});
 
   [[nodiscard]] std::int64_t cells() const { return regression_.rows(); }
 
   /// The weights under which the states of all cells are likeliest: logistic regression with a ridge.
   /// \throws std::invalid_argument if no cell was learned from.
-  [[nodiscard]] std::vector<double> fit() const;
+  [[nodiscard]] std::vector<double> fit(const CalibrationProgress& progress = {}) const;
 
  private:
   SonarCalibrationParams params_;
@@ -46,6 +47,7 @@ class SonarCalibration {
 
 /// A drive of a 16-sonar ring (pioneer-16), alone, through a building that is drawn from a random seed.
 [[nodiscard]] MapDrive sonar_drive(std::uint64_t seed, const sim::RandomWorldParams& params = {});
-void add_simulated_drive(SonarCalibration& calibration, std::uint64_t seed, const sim::RandomWorldParams& params = {});
+void add_simulated_drive(SonarCalibration& calibration, std::uint64_t seed, const sim::RandomWorldParams& params = {},
+                         const CalibrationProgress& progress = {});
 
 }  // namespace credo::evaluation

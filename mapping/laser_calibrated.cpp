@@ -44,9 +44,11 @@ evidence::GridMass CalibratedLaser::hit_mass() const { return before_full_trust(
 
 double CalibratedLaser::hit_share(double reading_m, const sensors::RangeNoise& noise) const {
   if (greatest_weight_ == 0.0) return 0.0;
+  const double sigma_m = noise.sigma(reading_m);
   double weight = 0.0;
-  for_each_hit_weight(noise.sigma(reading_m), reading_m,
+  for_each_hit_weight(sigma_m, reading_m,
                       [&](std::size_t i, double share) { weight += share * weights_.hit_weights[i]; });
+  weight *= std::min(1.0, LaserKnots::kSigma.back() / sigma_m);
   return before_full_trust(simple_mass(std::max(0.0, weight))).occupied / hit_mass().occupied;
 }
 

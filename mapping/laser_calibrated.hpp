@@ -10,7 +10,8 @@
 
 namespace credo::mapping {
 
-/// What the weight of a hit depends on: linear between knots, constant beyond the first and the last one.
+/// What the weight of a hit depends on: linear between knots, constant beyond the first and the last one; but beyond
+/// the last sigma it is as much less as the wall is less likely to be just there.
 struct LaserKnots {
   static constexpr std::array<double, 5> kSigma{0.005, 0.01, 0.02, 0.04, 0.08};    ///< of the range [m]
   static constexpr std::array<double, 6> kReading{0.4, 1.0, 2.0, 3.5, 6.0, 10.0};  ///< [m]

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <stdexcept>
 
 #include "mapping/laser_choice.hpp"
 
@@ -35,6 +36,19 @@ TEST(LaserCalibration, WhatIsLearnedInSomeBuildingsMapsAnotherBetterThanThePaper
   EXPECT_GT(score_of(mapping::laser_params("calibrated"), other).accuracy(), 0.98);  // the weights that come with it
 }
 
+/// Learned from range finders of little noise: what they do not have is no reason to see no wall.
+TEST(LaserCalibration, WhatIsLearnedOfSomeRangeFindersSeesWallsWithAnother) {
+  LaserCalibration calibration;
+  for (const std::uint64_t seed : {1, 3}) add_simulated_drive(calibration, seed, kShort);
+  sim::RandomWorldParams flight = kShort;
+  flight.range_preset = "tof-lms";
+  for (const double sigma_m : {0.08, 0.12}) {
+    const MapDrive noisy = laser_drive(503, flight, sigma_m);
+    for (const mapping::CalibratedLaserParams& laser : {calibration.fit(), mapping::default_calibrated_laser()})
+      EXPECT_LT(score_of(laser, noisy).missed_m, 0.1) << sigma_m;
+  }
+}
+
 TEST(LaserCalibration, AReadingByItselfIsWorthMoreThanOneOfMany) {
   LaserCalibration calibration;
   for (const std::uint64_t seed : {1, 2, 3, 4}) add_simulated_drive(calibration, seed, kShort);
@@ -46,6 +60,22 @@ TEST(LaserCalibration, AReadingByItselfIsWorthMoreThanOneOfMany) {
     EXPECT_GT(laser.alone.free_weight, laser.summed.free_weight);
     EXPECT_GT(sum(laser.alone.hit_weights), sum(laser.summed.hit_weights));
   }
+}
+
+TEST(LaserCalibration, TellsHowFarItIsAndCanBeEnded) {
+  LaserCalibration calibration;
+  double last = 0.0;
+  int calls = 0;
+  add_simulated_drive(calibration, 1, kShort, [&](double share) {
+    EXPECT_GE(share, last);
+    last = share;
+    ++calls;
+  });
+  EXPECT_GT(calls, 100);
+  EXPECT_EQ(last, 1.0);
+  const auto stop = [](double) { throw std::runtime_error("stop"); };
+  EXPECT_THROW(static_cast<void>(calibration.fit(stop)), std::runtime_error);
+  EXPECT_THROW(add_simulated_drive(calibration, 2, kShort, stop), std::runtime_error);
 }
 
 TEST(LaserCalibration, NothingIsLearnedFromNothing) {

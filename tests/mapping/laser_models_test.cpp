@@ -207,5 +207,21 @@ TEST(LaserChoice, EveryModelFindsTheRoom) {
   EXPECT_THROW(static_cast<void>(laser_params("li2007")), std::invalid_argument);
 }
 
+TEST(CalibratedLaser, SpeaksOfWallsWithAnyNoiseAndAtAnyRange) {
+  for (const ReadingsTaken taken : {ReadingsTaken::kSummed, ReadingsTaken::kAlone}) {
+    const CalibratedLaser laser(default_calibrated_laser(), taken);
+    double before = 1.0;
+    for (const double sigma_m : {0.005, 0.01, 0.02, 0.04, 0.08, 0.2, 0.5})
+      for (const double reading_m : {1.0, 3.5, 10.0, 30.0})
+        EXPECT_GT(laser.hit_mass().occupied * laser.hit_share(reading_m, {.sigma_0_m = sigma_m, .k_per_m = 0.0}), 0.01)
+            << sigma_m << " m, at " << reading_m;
+    for (const double sigma_m : {0.08, 0.16, 0.32}) {
+      const double share = laser.hit_share(3.5, {.sigma_0_m = sigma_m, .k_per_m = 0.0});
+      EXPECT_LT(share, before);
+      before = share;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace credo::mapping
