@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <span>
 #include <vector>
@@ -85,8 +86,8 @@ class MassMean {
   void for_each(std::size_t poses, const TakeIn& take_in) const {
     const double share = 1.0 / static_cast<double>(poses);
     sums_.for_each([&](grids::CellIndex cell, const evidence::GridMass& sum) {
-      const double known = share * (sum.empty + sum.occupied + sum.conflict);
-      take_in(cell, evidence::GridMass{share * sum.empty, share * sum.occupied, share * sum.conflict, 1.0 - known});
+      const double unknown = std::max(0.0, 1.0 - share * (sum.empty + sum.occupied + sum.conflict));
+      take_in(cell, evidence::GridMass{share * sum.empty, share * sum.occupied, share * sum.conflict, unknown});
     });
   }
 

@@ -179,6 +179,20 @@ TEST(PoseBlur, FoldsBlurASonarsMasses) {
   }
 }
 
+/// Printed masses may hold no ignorance, and their mean is no less a mass.
+TEST(PoseBlur, MassesWithoutIgnoranceStayMasses) {
+  MapperParams params;
+  params.sonar = Li2007Params{.reliability = 1.0, .variant = Variant::kPrinted};
+  SequentialMapper<DempsterFloatFold> floats(rig_with(one_sonar()), params);
+  SequentialMapper<DsmcFold> linear(rig_with(one_sonar()), params);
+  const auto unsure = with_sigma({}, 0.1, 0.01);
+  for (const float range_m : {0.6F, 1.0F, 2.0F}) {
+    floats.insert(unsure, sensors::SonarSweep{0, 0, {range_m}});
+    linear.insert(unsure, sensors::SonarSweep{0, 0, {range_m}});
+  }
+  linear.grid().for_each([](grids::CellIndex, const evidence::GridMass& mass) { EXPECT_GE(mass.unknown, 0.0); });
+}
+
 TEST(PoseBlur, CountsReadingsOnce) {
   Mapper mapper(rig_with(panoramic()));
   mapper.insert(with_sigma(kPose, 0.1, 0.01), scan_of_room(panoramic(), kPose, 6.0, 3.0));
