@@ -161,19 +161,23 @@ std::string changes_text(const std::vector<MapLine>& lines) {
   for (const MapLine& l : lines) {
     if (!l.changes) continue;
     if (text.empty())
-      text = fmt::format("\n{:<20} {:<14} {:>14} {:>14} {:>16}\n", "model", "rule", "after 3 sweeps", "after 5 sweeps",
-                         "unchanged wrong");
+      text = fmt::format("\n{:<20} {:<14} {:>14} {:>14} {:>16} {:>13}\n", "model", "rule", "after 3 sweeps",
+                         "after 5 sweeps", "unchanged wrong", "said changed");
     const auto share = [](double value, int decimals) {
       return std::isnan(value) ? std::string("-") : fmt::format("{:.{}f}%", 100.0 * value, decimals);
     };
-    text += fmt::format("{:<20} {:<14} {:>14} {:>14} {:>16}\n", l.model, l.rule, share(l.changes->followed_3(), 2),
-                        share(l.changes->followed_5(), 2), share(l.changes->wrong_share(), 3));
+    text +=
+        fmt::format("{:<20} {:<14} {:>14} {:>14} {:>16} {:>13}\n", l.model, l.rule, share(l.changes->followed_3(), 2),
+                    share(l.changes->followed_5(), 2), share(l.changes->wrong_share(), 3),
+                    l.rule == "changing" ? share(l.changes->said_changed_share(), 2) : "-");
   }
   if (text.empty()) return text;
   return text +
          "\nOf cells that changed between free and occupied, those that are right in the third and fifth scan that "
          "sees "
-         "them since;\nof cells that never changed and were seen in five scans, those that are wrong at the end.\n";
+         "them since;\nof cells that never changed and were seen in five scans, those that are wrong at the end, and "
+         "those that\n`changing` counts a change of (people who walk change cells, too, which no state of the world "
+         "tells).\n";
 }
 
 constexpr const char* kMapTerms =
@@ -201,7 +205,10 @@ ordered_json json_of(const MapLine& l) {
           {"ms", l.milliseconds},
           {"followed_after_3", number_or_null(l.changes ? std::optional(l.changes->followed_3()) : std::nullopt)},
           {"followed_after_5", number_or_null(l.changes ? std::optional(l.changes->followed_5()) : std::nullopt)},
-          {"unchanged_wrong", number_or_null(l.changes ? std::optional(l.changes->wrong_share()) : std::nullopt)}};
+          {"unchanged_wrong", number_or_null(l.changes ? std::optional(l.changes->wrong_share()) : std::nullopt)},
+          {"unchanged_said_changed",
+           number_or_null(l.changes && l.rule == "changing" ? std::optional(l.changes->said_changed_share())
+                                                            : std::nullopt)}};
 }
 
 /// Empty fields where nothing changed.

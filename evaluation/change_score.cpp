@@ -83,6 +83,8 @@ class Follower {
         return;
       ++score_.unchanged;
       score_.wrong += is_right(cell) ? 0 : 1;
+      if constexpr (std::is_same_v<Rule, mapping::ChangingFold>)
+        score_.said_changed += seen->of_rule.changes > 0 ? 1 : 0;
     });
     return score_;
   }

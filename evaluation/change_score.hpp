@@ -20,13 +20,17 @@ struct ChangeScore {
   std::int64_t right_3 = 0;    ///< of them, right after the third
   std::int64_t changed_5 = 0;  ///< the same after five
   std::int64_t right_5 = 0;
-  std::int64_t unchanged = 0;  ///< cells that are the same in all states and were seen in five sweeps
-  std::int64_t wrong = 0;      ///< of them, at the end
+  std::int64_t unchanged = 0;     ///< cells that are the same in all states and were seen in five sweeps
+  std::int64_t wrong = 0;         ///< of them, at the end
+  std::int64_t said_changed = 0;  ///< of them, that the rule `changing` counts a change of
 
   /// Shares; nan of nothing.
   [[nodiscard]] double followed_3() const { return static_cast<double>(right_3) / static_cast<double>(changed_3); }
   [[nodiscard]] double followed_5() const { return static_cast<double>(right_5) / static_cast<double>(changed_5); }
   [[nodiscard]] double wrong_share() const { return static_cast<double>(wrong) / static_cast<double>(unchanged); }
+  [[nodiscard]] double said_changed_share() const {
+    return static_cast<double>(said_changed) / static_cast<double>(unchanged);
+  }
 };
 
 /// Maps the scans by a rule, as map_along does, and looks after each.

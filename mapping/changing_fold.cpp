@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "evidence/grid_rules.hpp"
 
@@ -55,12 +56,22 @@ void ChangingFold::settle(Cell& cell, const GridMass& reading, sensors::Timestam
   cell.mass = evidence::discount(evidence::dsmh(std::array{cell.mass, reading}).mass, kMostCertain);
   if (std::max(cell.mass.occupied, cell.mass.empty) < params.settled_at) return;
   const State state = cell.mass.occupied > cell.mass.empty ? State::kOccupied : State::kEmpty;
-  if (state != cell.state) {
-    cell.changes += cell.state != State::kNone ? 1 : 0;
+  if (cell.state == State::kNone)
     cell.since = time;
-  }
+  else if (state != cell.state)
+    turn(cell, time);
   cell.state = state;
   cell.settled = true;
+}
+
+/// From one state to the other: back, if it has not lasted.
+void ChangingFold::turn(Cell& cell, sensors::Timestamp since) const {
+  if (std::exchange(cell.unconfirmed, 0) > 0) {
+    cell.since = cell.since_before;
+    return;
+  }
+  cell.since_before = std::exchange(cell.since, since);
+  cell.unconfirmed = params.confirmed_after;
 }
 
 /// A reading of a cell whose state is contradicted, by it or by one before.
@@ -74,9 +85,8 @@ void ChangingFold::keep_account(Cell& cell, const GridMass& reading, sensors::Ti
   if (belief_in(cell.account, opposite(cell.state)) >= params.changed_at) {
     cell.mass = cell.account;
     cell.state = opposite(cell.state);
-    cell.since = cell.contradicted;
+    turn(cell, cell.contradicted);
     cell.open = false;
-    ++cell.changes;
   } else if (belief_in(cell.account, cell.state) >= params.settles_until) {  // the readings since confirm it
     cell.mass = with_dempster(cell.mass, cell.account);
     cell.open = false;
@@ -88,9 +98,11 @@ bool ChangingFold::update(Cell& cell, const GridMass& reading, sensors::Timestam
   age(cell, time);
   cell.seen = cell.was_seen ? std::max(cell.seen, time) : time;
   cell.was_seen = true;
+  const bool contradicts = belief_in(reading, opposite(cell.state)) > belief_in(reading, cell.state);
+  if (cell.settled && !contradicts && cell.unconfirmed > 0 && --cell.unconfirmed == 0) ++cell.changes;
   if (!cell.settled)
     settle(cell, reading, time);
-  else if (cell.open || belief_in(reading, opposite(cell.state)) > belief_in(reading, cell.state))
+  else if (cell.open || contradicts)
     keep_account(cell, reading, time);
   else
     cell.mass = with_dempster(cell.mass, reading);

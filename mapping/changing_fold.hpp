@@ -23,13 +23,17 @@ struct ChangingParams {
   /// A time without readings that leaves less than this share of what an account holds against the state ends it, as
   /// what comes then is another matter. A share, so that weak readings add up as strong ones do.
   double account_kept = 0.5;
+  /// Readings that agree with it after which a change counts as one. A cell that goes back before has not changed, and
+  /// is what it was since then: at the edges of things some readings in a row are wrong.
+  int confirmed_after = 5;
 };
 
 /// A cell of a world that changes: DSm hybrid rule over time. "Empty and occupied" is nothing at one moment, so what a
 /// reading contradicts goes to ignorance as long as the cell is in no state; but a cell can have been empty and be
 /// occupied. So the first reading that contradicts a settled cell begins a second account, of the readings from then
 /// on: if they agree on the opposite, the cell has changed, at the time of that first reading; if they come back to
-/// what the cell was, it was noise. Both age: what was long ago is held against nothing. A cell that was forgotten and
+/// what the cell was, it was noise. What is follows at once; that it changed counts once the new state has lasted.
+/// Both age: what was long ago is held against nothing. A cell that was forgotten and
 /// is found in the other state has changed, too, since it was found.
 struct ChangingFold {
   /// Forgets by itself: of a robot at rest each reading counts in full.
@@ -42,8 +46,10 @@ struct ChangingFold {
     sensors::Timestamp seen = 0;          ///< latest reading
     sensors::Timestamp since = 0;         ///< settled in its state from then on
     sensors::Timestamp contradicted = 0;  ///< first reading of the account
-    std::int32_t changes = 0;
-    State state = State::kNone;  ///< the latest that it was settled in
+    sensors::Timestamp since_before = 0;  ///< in the state before, if the change is not confirmed
+    std::int32_t changes = 0;             ///< that are confirmed
+    std::int32_t unconfirmed = 0;         ///< readings that are still asked for; 0: the latest change is confirmed
+    State state = State::kNone;           ///< the latest that it was settled in
     bool was_seen = false;
     bool settled = false;  ///< it is in its state now
     bool open = false;     ///< an account is open
@@ -56,6 +62,7 @@ struct ChangingFold {
  private:
   void age(Cell& cell, sensors::Timestamp time) const;
   void settle(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time) const;
+  void turn(Cell& cell, sensors::Timestamp since) const;
   void keep_account(Cell& cell, const evidence::GridMass& reading, sensors::Timestamp time) const;
 };
 static_assert(CellRule<ChangingFold>);
