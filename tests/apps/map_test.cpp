@@ -88,6 +88,29 @@ TEST_F(Command, InstrumentsAreTrustedAsGivenOrAsJudged) {
   EXPECT_FALSE(fs::exists(folder_ / "none"));
 }
 
+/// From two places 300 m and 200 m apart: few tiles, but nobody knows before.
+TEST_F(Command, InstrumentsThatNeedTooMuchMemoryAreMappedAndNotJudged) {
+  const std::string far = "300 200 0 300 200 0 ";
+  write("far.log", kLogWithSonar +
+                       std::string("ODOM 300 200 0 0 0 0 2 host 2\nSONAR 0.5 3 1.2 1.4 2.5 0 0 0 0 0 1.57 0 0 "
+                                   "-1.57 2.1 host 2.1\nFLASER 4 1.5 1.4 1.3 1.2 ") +
+                       far + "2.2 host 2.2\nODOM 300 200 0 0 0 0 2.3 host 2.3\n");
+  const Answer mapped = credo("map far.log --out mapped --format json");
+  ASSERT_EQ(mapped.status, 0) << mapped.error;
+  EXPECT_THAT(mapped.error, AllOf(HasSubstr("warning"), HasSubstr("are not judged"), HasSubstr("of the 4 instruments"),
+                                  HasSubstr("more than 1 GB")));
+  const json report = json::parse(mapped.out);
+  EXPECT_TRUE(report["instruments"].empty());
+  EXPECT_EQ(std::pair(report["scans"].get<int>(), report["sonar_sweeps"].get<int>()), std::pair(3, 2));
+  const Answer large = credo("map far.log --out large --large");
+  EXPECT_THAT(large.error, Not(HasSubstr("judged")));
+  EXPECT_EQ(read("mapped/map.cgrid"), read("large/map.cgrid"));
+  const Answer judged = credo("map far.log --out judged --reliability judged");
+  EXPECT_EQ(judged.status, 1);
+  EXPECT_THAT(judged.error, AllOf(HasSubstr("--reliability judged"), HasSubstr("coarser --resolution, or give")));
+  EXPECT_FALSE(fs::exists(folder_ / "judged"));
+}
+
 TEST_F(Command, AMapOfNothingIsSaidToBeOne) {
   write("nothing.log", "FLASER 4 nan nan nan nan 0 0 0 0 0 0 1.2 host 1.2\n");
   const Answer answer = credo("map nothing.log --out out");
