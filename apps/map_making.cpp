@@ -88,7 +88,7 @@ InstrumentsAtHand instruments_at_hand(const MapOptions& o, const std::vector<Map
 }
 
 std::string too_many_bytes(const InstrumentsAtHand& at_hand) {
-  return fmt::format("the maps of the {} instruments, kept apart, may take {:.1f} GB, more than {:g} GB", at_hand.count,
+  return fmt::format("the maps of the {} instruments, kept apart, may take {:.2f} GB, more than {:g} GB", at_hand.count,
                      1e-9 * at_hand.bytes, 1e-9 * kMostInstrumentBytes);
 }
 
