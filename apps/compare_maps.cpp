@@ -231,7 +231,7 @@ void draw_maps(const fs::path& file, const std::vector<MapLine>& lines) {
 }
 
 void execute(const MapsOptions& o) {
-  refuse_older_file(o.out);
+  require_writable(o.out);
   const Interruptible interruptible;
   const datasets::OccupancyMap truth = true_map(o.from.source);
   const std::vector<datasets::TruthState> states = datasets::read_truth_states(o.from.source);

@@ -100,6 +100,22 @@ TEST_F(CompareCommand, AnOlderFileIsReplacedOnlyIfForced) {
   }
 }
 
+/// There is no dataset, which nobody has looked for yet.
+TEST_F(CompareCommand, WhereNoFileCanBeIsSaidBeforeTheWork) {
+  fs::create_directory(folder_ / "folder");
+  for (const std::string command :
+       {"calibrate laser none", "compare maps none", "compare localizers none", "plan none"}) {
+    for (const char* more : {"", " --force"}) {
+      const Answer nowhere = credo(command + " --out missing/table" + more);
+      EXPECT_EQ(nowhere.status, 1) << command;
+      EXPECT_THAT(nowhere.error, HasSubstr("missing/table: cannot be written: missing is no folder")) << command;
+      EXPECT_THAT(credo(command + " --out folder" + more).error, HasSubstr("folder: is a folder")) << command;
+    }
+    EXPECT_THAT(credo(command + " --out folder/").error, HasSubstr("folder/: is a folder")) << command;
+    EXPECT_THAT(credo(command + " --out folder/table").error, HasSubstr("none")) << command;
+  }
+}
+
 TEST_F(CompareCommand, ASonarLearnsFromADriveWhoseTruthIsKnown) {
   ASSERT_EQ(credo("simulate demo --out data").status, 0);
   ASSERT_EQ(credo("calibrate sonar data --out weights.yaml").status, 0);
