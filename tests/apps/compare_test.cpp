@@ -116,6 +116,22 @@ TEST_F(CompareCommand, WhereNoFileCanBeIsSaidBeforeTheWork) {
   }
 }
 
+TEST_F(CompareCommand, OptionsThatWouldHaveNoEffectAreRefused) {
+  for (const auto& [with, said] :
+       {std::pair{"--sensors range --models zhu", "--models: is of the sonar, which --sensors range leaves out"},
+        std::pair{"--sensors range --printed", "--printed: is of the sonar"},
+        std::pair{"--sensors range --sonar-weights nofile", "--sonar-weights: is of the sonar"},
+        std::pair{"--sensors sonar --laser-models bayes", "--laser-models: is of the range finders"},
+        std::pair{"--laser-models li2006 --laser-weights nofile", "add --laser-models calibrated"},
+        std::pair{"--models li2007,zhu --sonar-weights nofile", "not of 'li2007', 'zhu': add --models calibrated"},
+        std::pair{"--models su,zhu --printed", "one form only of 'su', 'zhu'"}}) {
+    const Answer answer = credo(std::string("compare maps none ") + with);
+    EXPECT_EQ(answer.status, 1) << with;
+    EXPECT_THAT(answer.error, HasSubstr(said));
+  }
+  EXPECT_THAT(credo("compare maps none --models su,bayes --printed").error, HasSubstr("has no truth_map.yaml"));
+}
+
 TEST_F(CompareCommand, ASonarLearnsFromADriveWhoseTruthIsKnown) {
   ASSERT_EQ(credo("simulate demo --out data").status, 0);
   ASSERT_EQ(credo("calibrate sonar data --out weights.yaml").status, 0);

@@ -209,8 +209,13 @@ TEST_F(Command, AnOptionOfAMapThatWouldHaveNoEffectIsRefused) {
   write_small_world();
   ASSERT_EQ(credo("simulate small.yaml --out data --seed 3").status, 0);
   for (const auto& [with, said] :
-       {std::pair{"--model su --printed", "has one form only"},
-        std::pair{"--laser-model calibrated --printed", "'calibrated' has one form only"},
+       {std::pair{"--model su --printed", "one form only of 'su'; there are two of li2007, li2006, lip, bayes"},
+        std::pair{"--laser-model calibrated --printed",
+                  "one form only of 'calibrated'; there are two of li2006, bayes"},
+        std::pair{"--sensors range --model zhu", "--model: is of the sonar, which --sensors range leaves out"},
+        std::pair{"--sensors sonar --laser-model bayes", "--laser-model: is of the range finders"},
+        std::pair{"--sensors range --sonar-weights nofile", "--sonar-weights: is of the sonar"},
+        std::pair{"--sensors sonar --laser-weights nofile", "--laser-weights: is of the range finders"},
         std::pair{"--sonar-weights nofile", "add --model calibrated"},
         std::pair{"--laser-weights nofile", "add --laser-model calibrated"},
         std::pair{"--rule pcr2 --readout raw", "as they are"}, std::pair{"--rule pcr2 --large", "read out at once"}}) {
