@@ -205,6 +205,15 @@ TEST_F(Command, ACellIsAskedWhatIsKnownOfItAndSinceWhen) {
   EXPECT_THAT(credo("cell data/dataset.yaml 0 0").error, HasSubstr("expected a map.cgrid"));
 }
 
+TEST_F(Command, AMapByARuleIsNoSumToExport) {
+  write("log", kLogWithSonar);
+  ASSERT_EQ(credo("map log --sensors range --rule pcr2 --out ruled").status, 0);
+  EXPECT_THAT(credo("export ruled --out none").error, HasSubstr("ruled: is a map by a rule, which is no sum"));
+  EXPECT_FALSE(fs::exists(folder_ / "none"));
+  for (const char* command : {"export nowhere --out none", "cell nowhere 0 0"})
+    EXPECT_THAT(credo(command).error, HasSubstr("nowhere: is not there")) << command;
+}
+
 TEST_F(Command, AnOptionOfAMapThatWouldHaveNoEffectIsRefused) {
   write_small_world();
   ASSERT_EQ(credo("simulate small.yaml --out data --seed 3").status, 0);
