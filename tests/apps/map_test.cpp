@@ -214,6 +214,18 @@ TEST_F(Command, AMapByARuleIsNoSumToExport) {
     EXPECT_THAT(credo(command).error, HasSubstr("nowhere: is not there")) << command;
 }
 
+TEST_F(Command, ACellIsNotAskedOfAMapWhoseFilesDoNotFit) {
+  write("log", kLogWithSonar);
+  ASSERT_EQ(credo("map log --sensors range --rule pcr2 --out ruled").status, 0);
+  ASSERT_EQ(credo("cell ruled 0.5 0").status, 0);
+  const std::string where = read("ruled/map.yaml");
+  write("ruled/map.yaml", std::regex_replace(where, std::regex(R"((origin: .*), [^,]*\])"), "$1, 0.5]"));
+  EXPECT_THAT(credo("cell ruled 0.5 0").error, HasSubstr("map.yaml: the origin's yaw is 0.5"));
+  write("ruled/map.yaml", where);
+  write("ruled/map.pgm", "P5\n1 1\n255\n0");
+  EXPECT_THAT(credo("cell ruled 0.5 0").error, HasSubstr("but map.yaml's picture is 1 x 1"));
+}
+
 TEST_F(Command, AnOptionOfAMapThatWouldHaveNoEffectIsRefused) {
   write_small_world();
   ASSERT_EQ(credo("simulate small.yaml --out data --seed 3").status, 0);
