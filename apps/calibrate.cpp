@@ -94,7 +94,7 @@ template <typename Calibration>
 void execute(const CalibrateOptions& o) {
   if (o.datasets.empty() && o.worlds == 0)
     throw std::runtime_error("nothing to learn from: name datasets with their true maps, or give --worlds");
-  refuse_older_file(o.out);
+  require_writable(o.out);
   const Interruptible interruptible;
   Calibration calibration;
   Progress progress("calibrating");

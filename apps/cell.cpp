@@ -16,11 +16,9 @@
 #include "apps/map_region.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output.hpp"
-#include "datasets/map_server.hpp"
 #include "datasets/trajectory.hpp"
 #include "evidence/grid_mass.hpp"
 #include "grids/readout.hpp"
-#include "results/belief_tiff.hpp"
 #include "results/cell_history.hpp"
 #include "results/map_folder.hpp"
 
@@ -60,10 +58,7 @@ CellAnswer ask_sum(const CellOptions& o) {
 
 CellAnswer ask_rule(const CellOptions& o) {
   const fs::path folder = o.map;
-  const datasets::OccupancyMap where = datasets::read_map(folder / "map.yaml");
-  const results::BeliefImage image = results::read_belief_tiff(folder / "map_belief.tiff");
-  const grids::Georeference georeference{
-      .resolution_m = where.resolution_m, .origin_x_m = where.origin_x_m, .origin_y_m = where.origin_y_m};
+  const auto [georeference, image] = results::read_belief_picture(folder);
   const grids::CellIndex cell = georeference.cell_at({o.x_m, o.y_m});
   if (cell.x < 0 || cell.y < 0 || cell.x >= image.width || cell.y >= image.height) fail_unseen(o);
   const auto& pixel =

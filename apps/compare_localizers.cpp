@@ -266,7 +266,7 @@ void print_tables(const Tables& all, const LocalizersOptions& options) {
 }
 
 void execute(const LocalizersOptions& options) {
-  refuse_older_file(options.out);
+  require_writable(options.out);
   const Interruptible interruptible;
   std::optional<datasets::StagedFolder> pictures;
   if (!options.pictures.empty()) pictures.emplace(options.pictures, refuse_older_pictures);

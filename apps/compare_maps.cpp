@@ -15,6 +15,7 @@
 
 #include "apps/about.hpp"
 #include "apps/compare.hpp"
+#include "apps/idle_options.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/map_source.hpp"
 #include "apps/option_checks.hpp"
@@ -237,8 +238,20 @@ void draw_maps(const fs::path& file, const std::vector<MapLine>& lines) {
   results::write_png(file, results::map_sheet(maps));
 }
 
+void require_meaning(const MapsOptions& o, const CLI::App& command) {
+  require_sensors(command, o.from,
+                  {{"--models", "sonar"},
+                   {"--printed", "sonar"},
+                   {"--sonar-weights", "sonar"},
+                   {"--laser-models", "range"},
+                   {"--laser-weights", "range"}});
+  if (o.sonar.printed) require_two_forms_of_sonar(o.models);
+  require_learned(o.sonar.weights, "--sonar-weights", o.models, "--models");
+  require_learned(o.laser.weights, "--laser-weights", o.laser_models, "--laser-models");
+}
+
 void execute(const MapsOptions& o) {
-  refuse_older_file(o.out);
+  require_writable(o.out);
   const Interruptible interruptible;
   const datasets::OccupancyMap truth = true_map(o.from.source);
   const std::vector<datasets::TruthState> states = datasets::read_truth_states(o.from.source);
@@ -304,7 +317,8 @@ void add_compare_maps(CLI::App& compare) {
   add_force_option(*command, o->out, "a table");
   command->add_option("--pictures", o->pictures, "a new folder for maps.png, all maps side by side")->check(a_path());
   add_format_option(*command, o->format);
-  command->callback([o] {
+  command->callback([o, command] {
+    require_meaning(*o, *command);
     for (std::vector<std::string>* names : {&o->models, &o->laser_models, &o->rules}) *names = once_each(*names);
     execute(*o);
   });

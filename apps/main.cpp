@@ -73,7 +73,10 @@ int main(int argc, char** argv) {
     credo::apps::say_error(error.path1().string() + ": cannot be read or written: " + error.code().message());
     return kUserError;
   } catch (const std::bad_alloc&) {
-    credo::apps::say_error("out of memory: a coarser --resolution or a shorter drive needs less");
+    credo::apps::say_error(
+        "out of memory: a coarser --resolution or a shorter drive needs less, and credo map with --large, which judges "
+        "no "
+        "instruments");
     return kUserError;
   } catch (const std::exception& error) {
     credo::apps::say_error(error.what());

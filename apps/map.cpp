@@ -16,6 +16,7 @@
 
 #include "apps/about.hpp"
 #include "apps/commands.hpp"
+#include "apps/idle_options.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/map_extent.hpp"
 #include "apps/map_making.hpp"
@@ -151,26 +152,16 @@ std::string changes_text(const MadeMap& made) {
          " settled cells; credo cell says since when";
 }
 
-void require_two_forms(const std::string& model) {
-  if (model == "su" || model == "zhu" || model == "calibrated")
-    throw std::runtime_error("--printed: the model '" + model +
-                             "' has one form only; those of Li X. and Li P. have two");
-}
-
-void require_learned(const std::string& weights, const std::string& weights_option, const std::string& model,
-                     const std::string& model_option) {
-  if (!weights.empty() && model != "calibrated")
-    throw std::runtime_error(weights_option + ": these are of the model 'calibrated', not of '" + model + "': add " +
-                             model_option + " calibrated");
-}
-
 /// What would have no effect is refused, so that nobody takes it for granted.
-void require_meaning(const MapOptions& o) {
+void require_meaning(const MapOptions& o, const CLI::App& command) {
+  require_sensors(
+      command, o.from,
+      {{"--model", "sonar"}, {"--sonar-weights", "sonar"}, {"--laser-model", "range"}, {"--laser-weights", "range"}});
   const auto mapped = [&](const char* sensor) { return std::ranges::count(o.from.sensors, sensor) > 0; };
-  if (o.printed && mapped("sonar")) require_two_forms(o.sonar.model);
-  if (o.printed && mapped("range")) require_two_forms(o.laser.model);
-  require_learned(o.sonar.weights, "--sonar-weights", o.sonar.model, "--model");
-  require_learned(o.laser.weights, "--laser-weights", o.laser.model, "--laser-model");
+  if (o.printed && mapped("sonar")) require_two_forms_of_sonar({o.sonar.model});
+  if (o.printed && mapped("range")) require_two_forms_of_laser({o.laser.model});
+  require_learned(o.sonar.weights, "--sonar-weights", std::array{o.sonar.model}, "--model");
+  require_learned(o.laser.weights, "--laser-weights", std::array{o.laser.model}, "--laser-model");
   if (o.rule.empty()) return;
   if (o.files.raw())
     throw std::runtime_error(
@@ -180,7 +171,6 @@ void require_meaning(const MapOptions& o) {
 }
 
 void execute(MapOptions o) {
-  require_meaning(o);
   const auto [parts, poses] = read_map_parts(o.from);
   if (o.out.empty())
     o.out = (fs::path("results") / (fs::path(o.from.source).lexically_normal().stem().string() + "_map")).string();
@@ -275,7 +265,10 @@ void add_map(CLI::App& app) {
       ->check(a_path());
   command->add_flag("-f,--force", o->force, "replace a map that is already there");
   add_format_option(*command, o->format);
-  command->callback([o] { execute(*o); });
+  command->callback([o, command] {
+    require_meaning(*o, *command);
+    execute(*o);
+  });
 }
 
 }  // namespace credo::apps

@@ -3,6 +3,8 @@
 
 #include "apps/map_making.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <set>
@@ -17,9 +19,23 @@
 namespace credo::apps {
 namespace {
 
-void require_fits(const MapOptions& o, const std::vector<MapPart>& parts) {
+/// The ground that the two kinds of sensors see.
+struct SeenGround {
+  Eigen::AlignedBox2d by_scans, by_sweeps;
+};
+
+/// Of each part.
+std::vector<SeenGround> seen_grounds(const MapOptions& o, const std::vector<MapPart>& parts) {
+  std::vector<SeenGround> all;
+  for (const MapPart& part : parts)
+    all.push_back({seen_ground(part.path, part.rig, part.scans, {}, o.params),
+                   seen_ground(part.path, part.rig, {}, part.sweeps, o.params)});
+  return all;
+}
+
+void require_fits(const MapOptions& o, const std::vector<SeenGround>& seen) {
   Eigen::AlignedBox2d ground;
-  for (const MapPart& part : parts) ground.extend(seen_ground(part.path, part.rig, part.scans, part.sweeps, o.params));
+  for (const SeenGround& part : seen) ground.extend(part.by_scans).extend(part.by_sweeps);
   if (!o.large) require_map_fits(ground, o.params.mapper.georeference.resolution_m);
 }
 
@@ -37,14 +53,43 @@ mapping::RuleMap build_by_rule(const MapOptions& o, const std::vector<MapPart>& 
                             });
 }
 
-/// Without several there is nobody to judge one by.
-bool has_several_instruments(const std::vector<MapPart>& parts) {
-  std::set<int> finders;
-  for (const MapPart& part : parts) {
-    if (!part.sweeps.empty()) return true;
-    for (const sensors::RangeScan& scan : part.scans) finders.insert(scan.sensor);
+/// Those that there are readings of, and what a map of each takes.
+struct InstrumentsAtHand {
+  std::size_t count = 0;
+  double bytes = 0.0;  ///< if each sees all the ground that its kind does
+
+  [[nodiscard]] bool several() const { return count > 1; }  ///< without them there is nobody to judge one by
+  [[nodiscard]] bool fit() const { return bytes <= kMostInstrumentBytes; }
+};
+
+double tile_bytes(const Eigen::AlignedBox2d& ground, double resolution_m) {
+  if (ground.isEmpty()) return 0.0;
+  const Eigen::Array2d tiles = (ground.sizes().array() / (grids::Tile::kSide * resolution_m)).ceil() + 1.0;
+  return tiles.prod() * sizeof(grids::Tile);
+}
+
+InstrumentsAtHand instruments_at_hand(const MapOptions& o, const std::vector<MapPart>& parts,
+                                      const std::vector<SeenGround>& seen) {
+  const double resolution_m = o.params.mapper.georeference.resolution_m;
+  InstrumentsAtHand at_hand;
+  const auto add = [&](std::size_t count, const Eigen::AlignedBox2d& ground) {
+    at_hand.count += count;
+    at_hand.bytes += static_cast<double>(count) * tile_bytes(ground, resolution_m);
+  };
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::set<int> finders, rings;
+    for (const sensors::RangeScan& scan : parts[i].scans) finders.insert(scan.sensor);
+    for (const sensors::SonarSweep& sweep : parts[i].sweeps) rings.insert(sweep.sensor);
+    add(finders.size(), seen[i].by_scans);
+    for (const int ring : rings)
+      add(parts[i].rig.sonar_rings.at(static_cast<std::size_t>(ring)).T_base_transducer.size(), seen[i].by_sweeps);
   }
-  return finders.size() > 1;
+  return at_hand;
+}
+
+std::string too_many_bytes(const InstrumentsAtHand& at_hand) {
+  return fmt::format("the maps of the {} instruments, kept apart, may take {:.2f} GB, more than {:g} GB", at_hand.count,
+                     1e-9 * at_hand.bytes, 1e-9 * kMostInstrumentBytes);
 }
 
 /// Calls work(part, report) for each part; report(share of it that is done).
@@ -61,9 +106,11 @@ void for_each_part(const std::vector<MapPart>& parts, const char* what, const Wo
 mapping::TrajectoryMap build_sum(const MapOptions& o, const std::vector<MapPart>& parts) {
   mapping::TrajectoryMap map{.grid = grids::EvidentialGrid(o.params.mapper.georeference), .counts = {}};
   for_each_part(parts, "mapping", [&](const MapPart& part, const auto& report) {
-    const mapping::TrajectoryMap one =
-        mapping::map_along(part.path, part.rig, part.scans, part.sweeps, o.params, report);
-    map.grid.merge(one.grid);
+    mapping::TrajectoryMap one = mapping::map_along(part.path, part.rig, part.scans, part.sweeps, o.params, report);
+    if (map.grid.tiles().empty())
+      map.grid = std::move(one.grid);
+    else
+      map.grid.merge(one.grid);
     map.counts += one.counts;
     map.without_pose += one.without_pose;
   });
@@ -85,7 +132,7 @@ mapping::TrajectoryMap build_and_judge(const MapOptions& o, const std::vector<Ma
       by_instrument.push_back(std::move(of));
     }
   });
-  verdicts = mapping::judge_instruments(by_instrument);
+  verdicts = mapping::judge_instruments(by_instrument, map.grid);
   return map;
 }
 
@@ -169,6 +216,14 @@ mapping::SensorReliabilityParams given_reliabilities(const std::vector<std::stri
   return params;
 }
 
+void require_judgeable(const InstrumentsAtHand& at_hand) {
+  if (!at_hand.several())
+    throw std::runtime_error("--reliability judged: there is one instrument, and no other to judge it by");
+  if (!at_hand.fit())
+    throw std::runtime_error("--reliability judged: " + too_many_bytes(at_hand) +
+                             ": choose a coarser --resolution, or give the reliabilities as NAME=SHARE");
+}
+
 bool wants_judged(const MapOptions& o) { return o.reliability == std::vector<std::string>{"judged"}; }
 
 }  // namespace
@@ -195,20 +250,24 @@ grids::CellBox MadeMap::box() const {
 }
 
 MadeMap make_map(MapOptions& o, const std::vector<MapPart>& parts) {
-  require_fits(o, parts);
+  const std::vector<SeenGround> seen = seen_grounds(o, parts);
+  require_fits(o, seen);
+  const InstrumentsAtHand at_hand = instruments_at_hand(o, parts, seen);
   const sensors::Rig& rig = parts.front().rig;
   std::vector<mapping::InstrumentVerdict> verdicts;
-  const bool several = has_several_instruments(parts);
   if (wants_judged(o)) {
-    if (!several)
-      throw std::runtime_error("--reliability judged: there is one instrument, and no other to judge it by");
+    require_judgeable(at_hand);
     static_cast<void>(build_and_judge(o, parts, "judging", verdicts));
     o.params.mapper.sensors = mapping::reliabilities(verdicts, rig);
   } else if (!o.reliability.empty()) {
     o.params.mapper.sensors = given_reliabilities(o.reliability, rig);
   }
   if (!o.rule.empty()) return {build_by_rule(o, parts), verdicts};
-  if (wants_judged(o) || o.large || !several) return {build_sum(o, parts), verdicts};
+  const bool judging = !wants_judged(o) && !o.large && at_hand.several();
+  if (judging && !at_hand.fit())
+    say_warning("the instruments are not judged by each other: " + too_many_bytes(at_hand) +
+                "; a coarser --resolution needs less");
+  if (!judging || !at_hand.fit()) return {build_sum(o, parts), verdicts};
   mapping::TrajectoryMap map = build_and_judge(o, parts, "mapping", verdicts);
   return {std::move(map), verdicts};
 }

@@ -40,12 +40,18 @@ struct MadeMap {
   [[nodiscard]] grids::CellBox box() const;
 };
 
+/// What instruments say is kept apart, to judge each by the others, where the maps of all do not take more [bytes]: by
+/// the ground that is seen, which they do not fill.
+inline constexpr double kMostInstrumentBytes = 1e9;
+
 /// --reliability: "judged", or NAME=SHARE of instruments: range, range/1, sonar, sonar/0 (a ring), sonar/0/3 (its
 /// fourth transducer).
 void add_reliability_option(CLI::App& command, std::vector<std::string>& reliability);
 
+/// Judges the instruments where there is no reason not to; that there is no room for it is a warning.
 /// \throws std::runtime_error where the ground is too large for pictures, the rule asks for poses of one frame, or
-///         --reliability names an instrument that the rig has not, or is to be judged where there is nobody to judge by
+///         --reliability names an instrument that the rig has not, or is to be judged where there is nobody to judge
+///         by, or no room for it
 [[nodiscard]] MadeMap make_map(MapOptions& options, const std::vector<MapPart>& parts);
 
 }  // namespace credo::apps

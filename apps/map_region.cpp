@@ -9,6 +9,7 @@
 
 #include "apps/option_checks.hpp"
 #include "datasets/grid_file.hpp"
+#include "results/map_folder.hpp"
 
 namespace credo::apps {
 namespace {
@@ -34,6 +35,12 @@ void add_region_option(CLI::App& command, std::vector<double>& region) {
 
 grids::EvidentialGrid read_map_region(const std::string& source, const std::vector<double>& region) {
   const fs::path file = fs::is_directory(source) ? fs::path(source) / "map.cgrid" : fs::path(source);
+  if (!fs::exists(source))
+    throw std::runtime_error(source + ": is not there: expected a map.cgrid, or a folder with one");
+  if (results::is_rule_map(source))
+    throw std::runtime_error(source +
+                             ": is a map by a rule, which is no sum and has no map.cgrid: expected one that was made "
+                             "without --rule");
   if (file.extension() != ".cgrid" || !fs::exists(file))
     throw std::runtime_error(source + ": expected a map.cgrid, or a folder of credo map or credo run that holds one");
   const datasets::GridFile whole(file);

@@ -16,7 +16,7 @@ void add_region_option(CLI::App& command, std::vector<double>& region);
 
 /// A map, or of it the tiles that a region touches: of no others is a byte read.
 /// \param source  a map.cgrid, or a folder that holds one
-/// \throws std::runtime_error if it is neither; as datasets::GridFile
+/// \throws std::runtime_error if it is neither, or by a rule, which is no sum; as datasets::GridFile
 [[nodiscard]] grids::EvidentialGrid read_map_region(const std::string& source, const std::vector<double>& region);
 
 /// Its cells within a region, one on the edge included.

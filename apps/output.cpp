@@ -20,8 +20,15 @@ void add_force_option(CLI::App& command, OutputFile& file, const std::string& wh
   command.add_flag("-f,--force", file.force, "replace " + what + " that is already there");
 }
 
-void refuse_older_file(const OutputFile& file) {
-  if (!file.force && file.wanted() && std::filesystem::exists(file.path))
+void require_writable(const OutputFile& file) {
+  namespace fs = std::filesystem;
+  if (!file.wanted()) return;
+  const fs::path path = file.path, folder = path.parent_path();
+  if (fs::is_directory(path) || !path.has_filename())
+    throw std::runtime_error(file.path + ": is a folder: expected a file of its own for --out");
+  if (!folder.empty() && !fs::is_directory(folder))
+    throw std::runtime_error(file.path + ": cannot be written: " + folder.string() + " is no folder: make it first");
+  if (!file.force && fs::exists(path))
     throw std::runtime_error(file.path + ": is there already: choose another file with --out, or add --force");
 }
 

@@ -31,8 +31,8 @@ struct OutputFile {
 void add_force_option(CLI::App& command, OutputFile& file, const std::string& what);
 
 /// To be called before work that takes long.
-/// \throws std::runtime_error if the file is there already and may not be replaced
-void refuse_older_file(const OutputFile& file);
+/// \throws std::runtime_error if the file is there already and may not be replaced, is a folder, or would be in none
+void require_writable(const OutputFile& file);
 
 /// To standard output, indented; numbers that are not finite become null, bytes that are no UTF-8 a replacement.
 void print(const nlohmann::ordered_json& value);

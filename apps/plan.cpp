@@ -64,7 +64,7 @@ geometry::FloorPlan plan_of(const PlanOptions& o) {
 }
 
 void execute(const PlanOptions& o) {
-  refuse_older_file(o.out);
+  require_writable(o.out);
   const geometry::FloorPlan plan = about(o.source, [&] { return plan_of(o); });
   if (plan.walls.empty())
     throw std::runtime_error(fmt::format("{}: no wall of {:g} m or more is in this map: try a lower --shortest",

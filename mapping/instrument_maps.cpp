@@ -6,9 +6,11 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
+#include "mapping/batches.hpp"
 #include "mapping/fan_painter.hpp"
 
 namespace credo::mapping {
@@ -34,60 +36,75 @@ double new_scans(const sensors::MotionPath& T_map_base, std::span<const sensors:
   return sum;
 }
 
-/// What one thread has mapped of a ring so far.
-struct RingWorker {
-  FanPainter fans;
-  std::vector<InstrumentMap> maps;  // one for each transducer
-  MappingCounts counts;
-  std::int64_t without_pose = 0;
-  std::vector<PlacedReading> placed;  // of the sweep at hand
-};
+/// The maps of a ring's transducers in the making.
+class RingMapping {
+ public:
+  RingMapping(const sensors::MotionPath& T_map_base, const sensors::Rig& rig, std::size_t ring,
+              const TrajectoryMappingParams& params)
+      : T_map_base_(T_map_base), rig_(rig), ring_(ring), params_(params), reliability_(rig, params.mapper.sensors) {
+    for (std::size_t i = 0; i < rig.sonar_rings[ring].T_base_transducer.size(); ++i)
+      maps_.push_back({{.ring = static_cast<int>(ring), .transducer = static_cast<int>(i)},
+                       EvidentialGrid(params.mapper.georeference)});
+    said_.resize(maps_.size());
+  }
 
-RingWorker worker_of(const sensors::Rig& rig, std::size_t ring, const MapperParams& params) {
-  RingWorker worker{
-      .fans = FanPainter(sonar_model(rig.sonar_rings[ring], params.sonar), rig.sonar_rings[ring], params.georeference),
-      .maps = {},
-      .counts = {},
-      .placed = {}};
-  for (std::size_t i = 0; i < rig.sonar_rings[ring].T_base_transducer.size(); ++i)
-    worker.maps.push_back(
-        {{.ring = static_cast<int>(ring), .transducer = static_cast<int>(i)}, EvidentialGrid(params.georeference)});
-  return worker;
-}
-
-void add_ring(InstrumentMaps& result, std::size_t ring, const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
-              std::span<const sensors::SonarSweep> sweeps, const TrajectoryMappingParams& params) {
-  const std::vector<double> shares = new_shares(T_map_base, sweeps, params);
-  const SensorReliability reliability(rig, params.mapper.sensors);
-  tbb::enumerable_thread_specific<RingWorker> workers([&] { return worker_of(rig, ring, params.mapper); });
-  tbb::parallel_for(std::size_t{0}, sweeps.size(), [&](std::size_t i) {
-    RingWorker& worker = workers.local();
-    const sensors::SonarSweep& sweep = sweeps[i];
-    if (!covers(T_map_base, sweep.time, params.max_gap_s)) {
-      ++worker.without_pose;
+  /// Deals a sweep's readings out to their transducers.
+  void place(const sensors::SonarSweep& sweep, double share, InstrumentMaps& result) {
+    if (!covers(T_map_base_, sweep.time, params_.max_gap_s)) {
+      ++result.without_pose;
       return;
     }
-    place_sweep(rig, params.mapper.georeference, params.mapper.pose,
-                {{T_map_base.pose_at(sweep.time), params.covariance}, params.belief}, sweep, T_map_base, worker.counts,
-                worker.placed, reliability.of_ring(ring), shares[i]);
-    for (const PlacedReading& reading : worker.placed) {
-      InstrumentMap& map = worker.maps[static_cast<std::size_t>(reading.transducer)];
-      worker.fans.paint(map.grid, reading.T_map_transducer, reading.range_m, reading.reliability);
-      ++map.readings;
-      map.sweeps += shares[i];  // a power of a half: the sum is the same in any order
+    place_sweep(rig_, params_.mapper.georeference, params_.mapper.pose,
+                {{T_map_base_.pose_at(sweep.time), params_.covariance}, params_.belief}, sweep, T_map_base_,
+                result.counts, placed_, reliability_.of_ring(ring_), share);
+    for (const PlacedReading& reading : placed_) {
+      said_[static_cast<std::size_t>(reading.transducer)].push_back(reading);
+      maps_[static_cast<std::size_t>(reading.transducer)].sweeps += share;
     }
-  });
-  RingWorker sum = worker_of(rig, ring, params.mapper);
-  for (const RingWorker& worker : workers) {
-    for (std::size_t i = 0; i < sum.maps.size(); ++i) {
-      sum.maps[i].grid.merge(worker.maps[i].grid);
-      sum.maps[i].readings += worker.maps[i].readings;
-      sum.maps[i].sweeps += worker.maps[i].sweeps;
-    }
-    result.counts += worker.counts;
-    result.without_pose += worker.without_pose;
   }
-  std::move(sum.maps.begin(), sum.maps.end(), std::back_inserter(result.maps));
+  /// Maps what was placed of a transducer since the last time. Transducers may be painted at once, by painters of their
+  /// own.
+  void paint(std::size_t transducer, FanPainter& fans) {
+    InstrumentMap& map = maps_[transducer];
+    for (const PlacedReading& reading : said_[transducer])
+      fans.paint(map.grid, reading.T_map_transducer, reading.range_m, reading.reliability);
+    map.readings += static_cast<std::int64_t>(said_[transducer].size());
+    said_[transducer].clear();
+  }
+  [[nodiscard]] std::vector<InstrumentMap>& maps() { return maps_; }
+
+ private:
+  const sensors::MotionPath& T_map_base_;
+  const sensors::Rig& rig_;
+  std::size_t ring_;
+  const TrajectoryMappingParams& params_;
+  SensorReliability reliability_;
+  std::vector<InstrumentMap> maps_;               // one for each transducer
+  std::vector<std::vector<PlacedReading>> said_;  // of the batch at hand, by transducer
+  std::vector<PlacedReading> placed_;             // of the sweep at hand
+};
+
+/// Cores share the transducers out and not the sweeps, so that there is one map of each, and none to merge.
+/// \param report  is told how many of the sweeps are done
+template <typename Report>
+void add_ring(InstrumentMaps& result, std::size_t ring, const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
+              std::span<const sensors::SonarSweep> sweeps, const TrajectoryMappingParams& params,
+              const Report& report) {
+  const std::vector<double> shares = new_shares(T_map_base, sweeps, params);
+  RingMapping mapping(T_map_base, rig, ring, params);
+  tbb::enumerable_thread_specific<FanPainter> painters([&] {
+    return FanPainter(sonar_model(rig.sonar_rings[ring], params.mapper.sonar), rig.sonar_rings[ring],
+                      params.mapper.georeference);
+  });
+  in_batches(
+      sweeps.size(),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) mapping.place(sweeps[i], shares[i], result);
+        tbb::parallel_for(std::size_t{0}, mapping.maps().size(),
+                          [&](std::size_t transducer) { mapping.paint(transducer, painters.local()); });
+      },
+      report);
+  std::move(mapping.maps().begin(), mapping.maps().end(), std::back_inserter(result.maps));
 }
 
 }  // namespace
@@ -128,9 +145,9 @@ InstrumentMaps map_by_instrument(const sensors::MotionPath& T_map_base, const se
   for (std::size_t ring = 0; ring < rig.sonar_rings.size(); ++ring) {
     const std::vector<sensors::SonarSweep> own = of_sensor(sweeps, ring);
     if (own.empty()) continue;
-    add_ring(result, ring, T_map_base, rig, own, params);
+    add_ring(result, ring, T_map_base, rig, own, params,
+             [&](std::size_t sweeps_done) { report(static_cast<double>(sweeps_done)); });
     done += static_cast<double>(own.size());
-    report(0.0);
   }
   return result;
 }

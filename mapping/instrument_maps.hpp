@@ -38,8 +38,10 @@ struct InstrumentMaps {
 };
 
 /// The map of a drive, as map_along, but what each instrument said kept apart. The sum of these maps (merge) is the one
-/// of map_along to the bit where the poses are sure (`params.covariance` zero): to keep them apart costs the memory,
-/// and the merging, and no reading is mapped twice. Sonar from an unsure pose is discounted here and not blurred.
+/// of map_along to the bit where the poses are sure (`params.covariance` zero): to keep them apart costs the memory
+/// of one map for each, however many the cores, and no reading is mapped twice. Sonar from an unsure pose is discounted
+/// here and not blurred.
+/// \param progress  as map_along's
 /// \throws as map_along
 [[nodiscard]] InstrumentMaps map_by_instrument(const sensors::MotionPath& T_map_base, const sensors::Rig& rig,
                                                std::span<const sensors::RangeScan> scans,

@@ -74,12 +74,9 @@ void set_reliabilities(std::vector<InstrumentVerdict>& verdicts, bool sonar) {
 
 }  // namespace
 
-std::vector<InstrumentVerdict> judge_instruments(std::span<const InstrumentMap> maps) {
+std::vector<InstrumentVerdict> judge_instruments(std::span<const InstrumentMap> maps, const EvidentialGrid& sum) {
   std::vector<InstrumentVerdict> verdicts;
-  if (maps.empty()) return verdicts;
-  EvidentialGrid all(maps.front().grid.georeference());
-  for (const InstrumentMap& map : maps) all.merge(map.grid);
-  for (const InstrumentMap& map : maps) verdicts.push_back(judge(map, all));
+  for (const InstrumentMap& map : maps) verdicts.push_back(judge(map, sum));
   for (const bool sonar : {false, true}) set_reliabilities(verdicts, sonar);
   return verdicts;
 }

@@ -40,8 +40,10 @@ inline constexpr double kTrustedSweeps = 5.0;
 /// neither can be told to be right but by how much it says; a single one, beside sonar, is told how far it is opposed,
 /// and keeps its trust.
 /// \param maps  of the drive, from poses that all share
+/// \param sum   of all of them, merged
 /// \returns one for each of the maps, in their order
-[[nodiscard]] std::vector<InstrumentVerdict> judge_instruments(std::span<const InstrumentMap> maps);
+[[nodiscard]] std::vector<InstrumentVerdict> judge_instruments(std::span<const InstrumentMap> maps,
+                                                               const grids::EvidentialGrid& sum);
 
 /// The verdicts as the mapper takes them.
 [[nodiscard]] SensorReliabilityParams reliabilities(std::span<const InstrumentVerdict> verdicts,

@@ -8,8 +8,10 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "mapping/batches.hpp"
 #include "mapping/mapper.hpp"
 
 namespace credo::mapping {
@@ -18,12 +20,8 @@ namespace {
 /// Calls insert(i) for all i below `count`, on all cores, and says after each batch how many are done.
 template <typename Insert, typename Done>
 void insert_in_batches(std::size_t count, const Insert& insert, const Done& done) {
-  constexpr std::size_t kBatch = 64;
-  for (std::size_t begin = 0; begin < count; begin += kBatch) {
-    const std::size_t end = std::min(begin + kBatch, count);
-    tbb::parallel_for(begin, end, insert);
-    done(end);
-  }
+  in_batches(
+      count, [&](std::size_t begin, std::size_t end) { tbb::parallel_for(begin, end, insert); }, done);
 }
 
 template <typename Reading>
@@ -112,7 +110,11 @@ TrajectoryMap map_along(const sensors::MotionPath& T_map_base, const sensors::Ri
 
   TrajectoryMap map{Mapper(rig, params.mapper).take_grid(), {}, 0};
   for (Worker& worker : workers) {
-    map.grid.merge(worker.mapper.grid());
+    grids::EvidentialGrid part = worker.mapper.take_grid();  // dies when it is merged
+    if (map.grid.tiles().empty())
+      map.grid = std::move(part);
+    else
+      map.grid.merge(part);
     map.counts += worker.mapper.counts();
     map.without_pose += worker.without_pose;
   }

@@ -49,8 +49,8 @@ struct CalibratedSonarParams {
 /// itself once.
 class CalibratedSonar {
  public:
-  /// \throws std::invalid_argument if there are not SonarKnots::kCount finite weights, the reliability is not in [0, 1],
-  ///         or the ring cannot be mapped (check_ring)
+  /// \throws std::invalid_argument if there are not SonarKnots::kCount finite weights, the reliability is not in
+  ///         [0, 1], or the ring cannot be mapped (check_ring)
   CalibratedSonar(const sensors::SonarRing& ring, const CalibratedSonarParams& params = {});
 
   [[nodiscard]] evidence::GridMass mass(double rho_m, double theta_rad, double reading_m) const;

@@ -34,16 +34,9 @@ evidence::FixedLogCommonality cell_of_rule(const std::array<float, 4>& pixel) {
 }
 
 grids::EvidentialGrid read_pictures(const std::filesystem::path& folder) {
-  const datasets::OccupancyMap where = datasets::read_map(folder / "map.yaml");
-  const BeliefImage image = read_belief_tiff(folder / "map_belief.tiff");
-  if (image.width != where.width || image.height != where.height) {
-    throw std::runtime_error((folder / "map_belief.tiff").string() + ": is " + std::to_string(image.width) + " x " +
-                             std::to_string(image.height) + ", but map.yaml says " + std::to_string(where.width) +
-                             " x " + std::to_string(where.height));
-  }
+  const auto [georeference, image] = read_belief_picture(folder);
   const bool of_rule = is_rule_map(folder);
-  grids::EvidentialGrid grid(
-      {.resolution_m = where.resolution_m, .origin_x_m = where.origin_x_m, .origin_y_m = where.origin_y_m});
+  grids::EvidentialGrid grid(georeference);
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
       const auto& pixel =
@@ -64,6 +57,22 @@ grids::EvidentialGrid read_pictures(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+BeliefPicture read_belief_picture(const std::filesystem::path& folder) {
+  const datasets::OccupancyMap where = datasets::read_map(folder / "map.yaml");
+  if (where.origin_yaw_rad != 0.0)
+    throw std::runtime_error((folder / "map.yaml").string() + ": the origin's yaw is " +
+                             std::to_string(where.origin_yaw_rad) +
+                             ": expected 0, as a map of credo map is not turned");
+  BeliefPicture picture{
+      {.resolution_m = where.resolution_m, .origin_x_m = where.origin_x_m, .origin_y_m = where.origin_y_m},
+      read_belief_tiff(folder / "map_belief.tiff")};
+  if (picture.image.width != where.width || picture.image.height != where.height)
+    throw std::runtime_error((folder / "map_belief.tiff").string() + ": is " + std::to_string(picture.image.width) +
+                             " x " + std::to_string(picture.image.height) + ", but map.yaml's picture is " +
+                             std::to_string(where.width) + " x " + std::to_string(where.height));
+  return picture;
+}
 
 bool is_rule_map(const std::filesystem::path& folder) {
   std::ifstream config(folder / "config.yaml");

@@ -25,6 +25,16 @@ struct MapFolderParams {
 [[nodiscard]] bool write_map_folder(const grids::EvidentialGrid& grid, const std::filesystem::path& folder,
                                     const MapFolderParams& params = {});
 
+/// What is believed, cell by cell, and where it lies.
+struct BeliefPicture {
+  grids::Georeference georeference;  ///< whose cell (0, 0) is the lower left one of the image
+  BeliefImage image;
+};
+
+/// map_belief.tiff of a results folder, where map.yaml says.
+/// \throws std::runtime_error if one is missing, they are not of one size, or the map is turned
+[[nodiscard]] BeliefPicture read_belief_picture(const std::filesystem::path& folder);
+
 /// Whether a folder holds a map of a rule that takes readings in one after the other: config.yaml says so.
 [[nodiscard]] bool is_rule_map(const std::filesystem::path& folder);
 

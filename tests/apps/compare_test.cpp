@@ -100,6 +100,38 @@ TEST_F(CompareCommand, AnOlderFileIsReplacedOnlyIfForced) {
   }
 }
 
+/// There is no dataset, which nobody has looked for yet.
+TEST_F(CompareCommand, WhereNoFileCanBeIsSaidBeforeTheWork) {
+  fs::create_directory(folder_ / "folder");
+  for (const std::string command :
+       {"calibrate laser none", "compare maps none", "compare localizers none", "plan none"}) {
+    for (const char* more : {"", " --force"}) {
+      const Answer nowhere = credo(command + " --out missing/table" + more);
+      EXPECT_EQ(nowhere.status, 1) << command;
+      EXPECT_THAT(nowhere.error, HasSubstr("missing/table: cannot be written: missing is no folder")) << command;
+      EXPECT_THAT(credo(command + " --out folder" + more).error, HasSubstr("folder: is a folder")) << command;
+    }
+    EXPECT_THAT(credo(command + " --out folder/").error, HasSubstr("folder/: is a folder")) << command;
+    EXPECT_THAT(credo(command + " --out folder/table").error, HasSubstr("none")) << command;
+  }
+}
+
+TEST_F(CompareCommand, OptionsThatWouldHaveNoEffectAreRefused) {
+  for (const auto& [with, said] :
+       {std::pair{"--sensors range --models zhu", "--models: is of the sonar, which --sensors range leaves out"},
+        std::pair{"--sensors range --printed", "--printed: is of the sonar"},
+        std::pair{"--sensors range --sonar-weights nofile", "--sonar-weights: is of the sonar"},
+        std::pair{"--sensors sonar --laser-models bayes", "--laser-models: is of the range finders"},
+        std::pair{"--laser-models li2006 --laser-weights nofile", "add --laser-models calibrated"},
+        std::pair{"--models li2007,zhu --sonar-weights nofile", "not of 'li2007', 'zhu': add --models calibrated"},
+        std::pair{"--models su,zhu --printed", "one form only of 'su', 'zhu'"}}) {
+    const Answer answer = credo(std::string("compare maps none ") + with);
+    EXPECT_EQ(answer.status, 1) << with;
+    EXPECT_THAT(answer.error, HasSubstr(said));
+  }
+  EXPECT_THAT(credo("compare maps none --models su,bayes --printed").error, HasSubstr("has no truth_map.yaml"));
+}
+
 TEST_F(CompareCommand, ASonarLearnsFromADriveWhoseTruthIsKnown) {
   ASSERT_EQ(credo("simulate demo --out data").status, 0);
   ASSERT_EQ(credo("calibrate sonar data --out weights.yaml").status, 0);

@@ -88,6 +88,29 @@ TEST_F(Command, InstrumentsAreTrustedAsGivenOrAsJudged) {
   EXPECT_FALSE(fs::exists(folder_ / "none"));
 }
 
+/// From two places 300 m and 200 m apart: few tiles, but nobody knows before.
+TEST_F(Command, InstrumentsThatNeedTooMuchMemoryAreMappedAndNotJudged) {
+  const std::string far = "300 200 0 300 200 0 ";
+  write("far.log", kLogWithSonar +
+                       std::string("ODOM 300 200 0 0 0 0 2 host 2\nSONAR 0.5 3 1.2 1.4 2.5 0 0 0 0 0 1.57 0 0 "
+                                   "-1.57 2.1 host 2.1\nFLASER 4 1.5 1.4 1.3 1.2 ") +
+                       far + "2.2 host 2.2\nODOM 300 200 0 0 0 0 2.3 host 2.3\n");
+  const Answer mapped = credo("map far.log --out mapped --format json");
+  ASSERT_EQ(mapped.status, 0) << mapped.error;
+  EXPECT_THAT(mapped.error, AllOf(HasSubstr("warning"), HasSubstr("are not judged"), HasSubstr("of the 4 instruments"),
+                                  HasSubstr("more than 1 GB")));
+  const json report = json::parse(mapped.out);
+  EXPECT_TRUE(report["instruments"].empty());
+  EXPECT_EQ(std::pair(report["scans"].get<int>(), report["sonar_sweeps"].get<int>()), std::pair(3, 2));
+  const Answer large = credo("map far.log --out large --large");
+  EXPECT_THAT(large.error, Not(HasSubstr("judged")));
+  EXPECT_EQ(read("mapped/map.cgrid"), read("large/map.cgrid"));
+  const Answer judged = credo("map far.log --out judged --reliability judged");
+  EXPECT_EQ(judged.status, 1);
+  EXPECT_THAT(judged.error, AllOf(HasSubstr("--reliability judged"), HasSubstr("coarser --resolution, or give")));
+  EXPECT_FALSE(fs::exists(folder_ / "judged"));
+}
+
 TEST_F(Command, AMapOfNothingIsSaidToBeOne) {
   write("nothing.log", "FLASER 4 nan nan nan nan 0 0 0 0 0 0 1.2 host 1.2\n");
   const Answer answer = credo("map nothing.log --out out");
@@ -182,12 +205,38 @@ TEST_F(Command, ACellIsAskedWhatIsKnownOfItAndSinceWhen) {
   EXPECT_THAT(credo("cell data/dataset.yaml 0 0").error, HasSubstr("expected a map.cgrid"));
 }
 
+TEST_F(Command, AMapByARuleIsNoSumToExport) {
+  write("log", kLogWithSonar);
+  ASSERT_EQ(credo("map log --sensors range --rule pcr2 --out ruled").status, 0);
+  EXPECT_THAT(credo("export ruled --out none").error, HasSubstr("ruled: is a map by a rule, which is no sum"));
+  EXPECT_FALSE(fs::exists(folder_ / "none"));
+  for (const char* command : {"export nowhere --out none", "cell nowhere 0 0"})
+    EXPECT_THAT(credo(command).error, HasSubstr("nowhere: is not there")) << command;
+}
+
+TEST_F(Command, ACellIsNotAskedOfAMapWhoseFilesDoNotFit) {
+  write("log", kLogWithSonar);
+  ASSERT_EQ(credo("map log --sensors range --rule pcr2 --out ruled").status, 0);
+  ASSERT_EQ(credo("cell ruled 0.5 0").status, 0);
+  const std::string where = read("ruled/map.yaml");
+  write("ruled/map.yaml", std::regex_replace(where, std::regex(R"((origin: .*), [^,]*\])"), "$1, 0.5]"));
+  EXPECT_THAT(credo("cell ruled 0.5 0").error, HasSubstr("map.yaml: the origin's yaw is 0.5"));
+  write("ruled/map.yaml", where);
+  write("ruled/map.pgm", "P5\n1 1\n255\n0");
+  EXPECT_THAT(credo("cell ruled 0.5 0").error, HasSubstr("but map.yaml's picture is 1 x 1"));
+}
+
 TEST_F(Command, AnOptionOfAMapThatWouldHaveNoEffectIsRefused) {
   write_small_world();
   ASSERT_EQ(credo("simulate small.yaml --out data --seed 3").status, 0);
   for (const auto& [with, said] :
-       {std::pair{"--model su --printed", "has one form only"},
-        std::pair{"--laser-model calibrated --printed", "'calibrated' has one form only"},
+       {std::pair{"--model su --printed", "one form only of 'su'; there are two of li2007, li2006, lip, bayes"},
+        std::pair{"--laser-model calibrated --printed",
+                  "one form only of 'calibrated'; there are two of li2006, bayes"},
+        std::pair{"--sensors range --model zhu", "--model: is of the sonar, which --sensors range leaves out"},
+        std::pair{"--sensors sonar --laser-model bayes", "--laser-model: is of the range finders"},
+        std::pair{"--sensors range --sonar-weights nofile", "--sonar-weights: is of the sonar"},
+        std::pair{"--sensors sonar --laser-weights nofile", "--laser-weights: is of the range finders"},
         std::pair{"--sonar-weights nofile", "add --model calibrated"},
         std::pair{"--laser-weights nofile", "add --laser-model calibrated"},
         std::pair{"--rule pcr2 --readout raw", "as they are"}, std::pair{"--rule pcr2 --large", "read out at once"}}) {

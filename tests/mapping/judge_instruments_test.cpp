@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "tests/mapping/readings.hpp"
 
 namespace credo::mapping {
@@ -18,6 +21,16 @@ sensors::SonarRing sixteen() {
   sensors::SonarRing ring;
   for (int k = 0; k < 16; ++k) ring.T_base_transducer.push_back({0.0, 0.0, to_radians(22.5 * k)});
   return ring;
+}
+
+grids::EvidentialGrid sum_of(const std::vector<InstrumentMap>& maps) {
+  grids::EvidentialGrid sum(maps.front().grid.georeference());
+  for (const InstrumentMap& map : maps) sum.merge(map.grid);
+  return sum;
+}
+
+std::vector<InstrumentVerdict> verdicts_on(const InstrumentMaps& apart) {
+  return judge_instruments(apart.maps, sum_of(apart.maps));
 }
 
 /// Sixteen sonars on a loop through a room of 4 m x 3 m; each hears what is nearest in its cone.
@@ -40,7 +53,7 @@ struct Drive {
   }
 
   [[nodiscard]] std::vector<InstrumentVerdict> judged() const {
-    return judge_instruments(map_by_instrument(path, rig, {}, sweeps).maps);
+    return verdicts_on(map_by_instrument(path, rig, {}, sweeps));
   }
 
  private:
@@ -178,7 +191,7 @@ TEST(JudgeInstruments, FindsTheRangeFinderThatReadsShort) {
   for (sensors::RangeScan& scan : drive.scans)
     if (scan.sensor == 1)
       for (float& range_m : scan.ranges_m) range_m *= 0.8F;
-  const std::vector<InstrumentVerdict> verdicts = judge_instruments(drive.mapped(false).maps);
+  const std::vector<InstrumentVerdict> verdicts = verdicts_on(drive.mapped(false));
   ASSERT_EQ(verdicts.size(), 3u);
   for (const InstrumentVerdict& verdict : verdicts)
     EXPECT_EQ(verdict.reliability < 0.5, verdict.instrument.finder == 1) << verdict.instrument.name();
@@ -190,7 +203,7 @@ TEST(JudgeInstruments, FindsTheRangeFinderThatReadsShort) {
 
 TEST(JudgeInstruments, SonarTellsHowFarItOpposesALaser) {
   DriveWithLasers drive(1);
-  const auto opposed = [&] { return judge_instruments(drive.mapped(true).maps).front().opposed; };
+  const auto opposed = [&] { return verdicts_on(drive.mapped(true)).front().opposed; };
   const double in_order = opposed();
   for (sensors::RangeScan& scan : drive.scans)
     for (float& range_m : scan.ranges_m) range_m *= 0.8F;
@@ -200,7 +213,7 @@ TEST(JudgeInstruments, SonarTellsHowFarItOpposesALaser) {
 TEST(JudgeInstruments, TheSonarThatLiesIsTheLeastReliableBesideALaserToo) {
   DriveWithLasers drive(1);
   for (sensors::SonarSweep& sweep : drive.sweeps) sweep.ranges_m[5] *= 0.7F;
-  const std::vector<InstrumentVerdict> verdicts = judge_instruments(drive.mapped(true).maps);
+  const std::vector<InstrumentVerdict> verdicts = verdicts_on(drive.mapped(true));
   EXPECT_THAT(summary(verdicts), HasSubstr("least reliable: transducer 5 of ring 0"));
 }
 
@@ -213,9 +226,23 @@ TEST(InstrumentMaps, SumUpToTheMapOfAllToTheBit) {
   const TrajectoryMap together = map_along(drive.path, drive.rig, drive.scans, drive.sweeps);
   EXPECT_EQ(apart.counts, together.counts);
   EXPECT_EQ(apart.without_pose, together.without_pose);
-  grids::EvidentialGrid sum(together.grid.georeference());
-  for (const InstrumentMap& map : apart.maps) sum.merge(map.grid);
-  EXPECT_TRUE(sum == together.grid);
+  EXPECT_TRUE(sum_of(apart.maps) == together.grid);
+}
+
+TEST(InstrumentMaps, SayHowFarTheyAreWhileARingIsMappedAndCanBeEnded) {
+  Drive drive;
+  const std::vector<sensors::SonarSweep> once = drive.sweeps;
+  for (int more = 0; more < 3; ++more) drive.sweeps.insert(drive.sweeps.end(), once.begin(), once.end());
+  std::vector<double> shares;
+  static_cast<void>(
+      map_by_instrument(drive.path, drive.rig, {}, drive.sweeps, {}, [&](double share) { shares.push_back(share); }));
+  ASSERT_EQ(shares.size(), 4u);  // 240 sweeps, 64 at a time
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_LT(shares.front(), 0.3);
+  EXPECT_EQ(shares.back(), 1.0);
+  const auto end = [](double) { throw std::runtime_error("enough"); };
+  EXPECT_THROW(static_cast<void>(map_by_instrument(drive.path, drive.rig, {}, drive.sweeps, {}, end)),
+               std::runtime_error);
 }
 
 TEST(InstrumentMaps, RefusesReadingsThatAreNotOfTheRig) {

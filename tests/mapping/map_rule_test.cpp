@@ -87,7 +87,7 @@ TEST(MapRule, AFoldOfDempsterAgreesWithTheSum) {
 }
 
 /// Of the laser alone, whose evidence is the same in both: a sonar's comes from tables in the one.
-TEST(MapRule, FloatsDecideAsFixedPointDoes) {
+TEST(MapRule, FloatsHoldTheMassesOfFixedPoint) {
   DriveOfBoth drive;
   drive.sweeps.clear();
   const grids::MassMap floats = drive.mapped(DempsterFloatFold{}).map,
@@ -98,10 +98,6 @@ TEST(MapRule, FloatsDecideAsFixedPointDoes) {
   for (std::size_t i = 0; i < fixed.masses.size(); ++i) {
     ASSERT_NEAR(floats.masses[i].occupied, fixed.masses[i].occupied, kTolerance);
     ASSERT_NEAR(floats.masses[i].empty, fixed.masses[i].empty, kTolerance);
-    const bool clear = std::abs(fixed.masses[i].occupied - fixed.masses[i].empty) > 2.0 * kTolerance;
-    const bool alike =
-        (floats.masses[i].occupied > floats.masses[i].empty) == (fixed.masses[i].occupied > fixed.masses[i].empty);
-    ASSERT_TRUE(alike || !clear);
   }
 }
 
