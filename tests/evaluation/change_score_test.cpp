@@ -91,6 +91,16 @@ TEST(ChangeScore, WhereNothingChangedThereIsNoShareOfIt) {
   EXPECT_FALSE(std::isnan(score.wrong_share()));
 }
 
+TEST(ChangeScore, TellsWhatIsSaidToHaveChangedAndHasNot) {
+  MovingWall world;
+  EXPECT_LT(world.score(mapping::ChangingFold{}).said_changed_share(), 0.05);
+  world.states.resize(1);  // as if the wall had never moved
+  const ChangeScore told = world.score(mapping::ChangingFold{});
+  EXPECT_GT(told.said_changed, 60);
+  EXPECT_LE(told.said_changed, told.unchanged);
+  EXPECT_EQ(world.score(mapping::Pcr2Fold{}).said_changed, 0);  // keeps no account of changes
+}
+
 TEST(ChangeScore, WithoutAStateNothingCanBeSaid) {
   const MovingWall world;
   EXPECT_THROW(static_cast<void>(change_score(world.path, world.rig, world.scans, {}, {}, mapping::Pcr2Fold{})),
