@@ -28,6 +28,10 @@ constexpr double kLeastCells = 1e-3;
 constexpr double kRounding = 1e-9;
 constexpr double kWallHalfCells =
     0.55;  // to either side of a surface: half a cell, and a bit for one on a border of cells
+// Of half a sector, where a nearer thing hides it: its edge is as likely in one place between the beams as in another,
+// so what is left is hidden with 5 percent at most.
+constexpr double kSeenShare = 0.1;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The greatest of some lengths, 0 if there is none; eight at a time.
 double greatest(const std::vector<double>& lengths) {
@@ -72,6 +76,8 @@ ScanBeams::ScanBeams(const sensors::RangeFinder& range_finder, const grids::Geor
       std::copysign(std::min(half, params.max_half_sector_rad), range_finder.angle_increment_rad);
   half_sector_cos_ = std::cos(half_sector_rad);
   half_sector_sin_ = std::sin(half_sector_rad);
+  hidden_cos_ = std::cos(kSeenShare * half_sector_rad);
+  hidden_sin_ = std::sin(kSeenShare * half_sector_rad);
   cells_per_metre_ = 1.0 / georeference.resolution_m;
   for (int beam = 0; beam < range_finder.count; ++beam) {
     const double angle = range_finder.beam_angle(beam);
@@ -90,7 +96,6 @@ ScanBeams::ScanBeams(const sensors::RangeFinder& range_finder, const grids::Geor
 
 /// What the readings are, and what the laser's tables hold for each.
 ScanBeams::Counts ScanBeams::look_up(std::span<const float> ranges_m) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double least_m = range_finder_.range_min_m, most_m = range_finder_.range_max_m;
   Counts counts;
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
@@ -260,11 +265,33 @@ bool ScanBeams::shares_first_side(std::size_t beam) const {
   return sine_before_[beam] > 0.0 || (touching_ && (beam > 0 || (all_round_ && !moving_)));
 }
 
-ScanBeams::Point ScanBeams::side(std::size_t beam, double length_m, double turn) const {
+/// Up to where all that a beam says begins: nothing of it is nearer.
+double ScanBeams::first_end_m(std::size_t beam) const {
+  const double free_m = free_.length_m[beam];
+  return hit_level_[beam] > 0 ? std::min(free_m, near_.length_m[beam]) : free_m;
+}
+
+double ScanBeams::hidden_from_m(std::size_t beam, double turn) const {
+  const std::size_t other = turn > 0.0 ? after(beam) : before(beam), first = turn > 0.0 ? beam : other;
+  const bool are_neighbours = all_round_ || first + 1 < count();
+  if (!are_neighbours || sine_after_[first] > 0.0 || hit_level_[other] == 0) return kInfinity;
+  const double edge_m = far_.length_m[other];
+  return first_end_m(beam) > edge_m + kLeastCells * georeference_.resolution_m ? edge_m : kInfinity;
+}
+
+ScanBeams::Point ScanBeams::beside(std::size_t beam, double length_m, double turn_cos, double turn_sin) const {
   const double length = length_m * cells_per_metre_;
-  const double c = half_sector_cos_, s = turn * half_sector_sin_;
-  return {origin_x_[beam] + length * (c * direction_x_[beam] - s * direction_y_[beam]),
-          origin_y_[beam] + length * (s * direction_x_[beam] + c * direction_y_[beam])};
+  return {origin_x_[beam] + length * (turn_cos * direction_x_[beam] - turn_sin * direction_y_[beam]),
+          origin_y_[beam] + length * (turn_sin * direction_x_[beam] + turn_cos * direction_y_[beam])};
+}
+
+ScanBeams::Point ScanBeams::side(std::size_t beam, double length_m, double turn) const {
+  if (length_m > hidden_from_m(beam, turn)) return hidden_side(beam, length_m, turn);
+  return beside(beam, length_m, half_sector_cos_, turn * half_sector_sin_);
+}
+
+ScanBeams::Point ScanBeams::hidden_side(std::size_t beam, double length_m, double turn) const {
+  return beside(beam, length_m, hidden_cos_, turn * hidden_sin_);
 }
 
 ScanBeams::Point ScanBeams::end(std::size_t beam, const Outline& outline) const {
@@ -275,8 +302,9 @@ ScanBeams::Point ScanBeams::end(std::size_t beam, const Outline& outline) const 
 
 ScanBeams::Point ScanBeams::start(std::size_t beam, const Outline& outline) const {
   if (sine_before_[beam] > 0.0) return end(beam - 1, outline);
-  if (shares_first_side(beam)) return side(before(beam), outline.length_m[beam], 1.0);
-  return side(beam, outline.length_m[beam], -1.0);
+  const double length_m = outline.length_m[beam];
+  const bool is_common = shares_first_side(beam) && length_m <= hidden_from_m(beam, -1.0);
+  return is_common ? side(before(beam), length_m, 1.0) : side(beam, length_m, -1.0);
 }
 
 /// How the outlines lie to each other: whether the occupied part begins as the free one ends, so that one outline will

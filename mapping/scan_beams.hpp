@@ -45,6 +45,7 @@ class ScanBeams {
   [[nodiscard]] const LaserTables& tables() const { return tables_; }
   [[nodiscard]] std::size_t count() const { return range_m_.size(); }
   [[nodiscard]] std::size_t before(std::size_t beam) const { return beam > 0 ? beam - 1 : count() - 1; }
+  [[nodiscard]] std::size_t after(std::size_t beam) const { return beam + 1 < count() ? beam + 1 : 0; }
 
   /// The level of evidence for what is free, and for what is occupied, from 1 to kLevels; 0: there is none.
   [[nodiscard]] int free_level(std::size_t beam) const { return free_level_[beam]; }
@@ -60,8 +61,14 @@ class ScanBeams {
 
   /// Where the sensor was for a beam, in cells.
   [[nodiscard]] Point origin(std::size_t beam) const { return {origin_x_[beam], origin_y_[beam]}; }
+  /// From where on what a neighbour hits hides a half of a beam's sector; infinity: it does not. Where the edge lies
+  /// between the two beams nobody has seen: the sector is hardly wider than the beam from there on.
+  /// \param turn  1: the last half in the order of the beams, -1: the first
+  [[nodiscard]] double hidden_from_m(std::size_t beam, double turn) const;
   /// A place on a side of a beam's sector. \param turn  1: the last side in the order of the beams, -1: the first
   [[nodiscard]] Point side(std::size_t beam, double length_m, double turn) const;
+  /// The same, of the sector where that half of it is hidden.
+  [[nodiscard]] Point hidden_side(std::size_t beam, double length_m, double turn) const;
   /// Where an outline enters a beam's sector. Sectors that touch have their side in common, to the last digit.
   [[nodiscard]] Point start(std::size_t beam, const Outline& outline) const;
   /// Where it leaves it: half-way to the next beam where both hit one surface.
@@ -82,7 +89,9 @@ class ScanBeams {
   void set_pose(std::size_t begin, std::size_t end, const geometry::Pose2& sensor);
   void join();
   void widen();
+  [[nodiscard]] double first_end_m(std::size_t beam) const;
   void measure(Outline& outline) const;
+  [[nodiscard]] Point beside(std::size_t beam, double length_m, double turn_cos, double turn_sin) const;
   void compare_outlines();
 
   sensors::RangeFinder range_finder_;
@@ -91,6 +100,7 @@ class ScanBeams {
   ScanParams params_;
   double cells_per_metre_ = 0.0;
   double half_sector_cos_ = 1.0, half_sector_sin_ = 0.0;  // of half the angle between beams, at most
+  double hidden_cos_ = 1.0, hidden_sin_ = 0.0;            // of what is left of it where it is hidden
   bool touching_ = false;                                 // sectors reach half-way to their neighbours
   bool all_round_ = false;                                // so do the last one and the first
   std::vector<double> sensor_x_, sensor_y_;               // directions of the beams in the sensor frame

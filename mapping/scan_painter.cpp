@@ -10,6 +10,8 @@
 namespace credo::mapping {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 int free_class(int level) { return level > 0 ? level - 1 : RegionFiller::kOutside; }
 int hit_class(int level) { return level > 0 ? kLevels + level - 1 : RegionFiller::kOutside; }
 
@@ -58,7 +60,10 @@ struct ScanPainter::Layers {
   [[nodiscard]] double after(double length_m) const {
     for (const double border : {free_m, near_m, far_m})
       if (border > length_m) return border;
-    return std::numeric_limits<double>::infinity();
+    return kInfinity;
+  }
+  [[nodiscard]] Layers up_to(double length_m) const {
+    return {free, hit, std::min(free_m, length_m), std::min(near_m, length_m), std::min(far_m, length_m)};
   }
 };
 
@@ -72,19 +77,32 @@ ScanPainter::Layers ScanPainter::layers(std::size_t beam) const {
 }
 
 /// The side between two sectors, or beside one: bounds what differs to either side of it.
+/// \param start  of the side, so far from the sensor
 /// \param place  of a length along it
 template <typename Place>
-void ScanPainter::add_side(const Point& sensor, const Layers& before, const Layers& after, const Place& place) {
-  Point from = sensor;
-  for (double length_m = 0.0;;) {
+void ScanPainter::add_side(const Point& start, double start_m, const Layers& before, const Layers& after,
+                           const Place& place) {
+  Point from = start;
+  for (double length_m = start_m;;) {
     const double next_m = std::min(before.after(length_m), after.after(length_m));
-    if (next_m == std::numeric_limits<double>::infinity()) return;
+    if (next_m == kInfinity) return;
     const Point to = place(next_m);
     const int left = after.at(length_m), right = before.at(length_m);
     if (left != right) filler_.add_edge(from, to, seen_outwards({.left = left, .right = right}));
     from = to;
     length_m = next_m;
   }
+}
+
+/// The rest of a side, from where that half of the sector is hidden.
+/// \param edge  where the side came to so far
+void ScanPainter::add_hidden_side(std::size_t beam, double turn, const Point& edge) {
+  const double edge_m = beams_.hidden_from_m(beam, turn);
+  const Layers own = layers(beam), before = turn > 0.0 ? own : Layers{}, after = turn > 0.0 ? Layers{} : own;
+  const Point start = beams_.hidden_side(beam, edge_m, turn);
+  const int left = after.at(edge_m), right = before.at(edge_m);
+  if (left != right) filler_.add_edge(edge, start, seen_outwards({.left = left, .right = right}));
+  add_side(start, edge_m, before, after, [&](double length_m) { return beams_.side(beam, length_m, turn); });
 }
 
 /// The side between beams that hit one surface but are trusted differently.
@@ -100,13 +118,22 @@ void ScanPainter::add_joint(std::size_t beam) {
 
 /// The sides after a beam: its own and that of the next, which may be one.
 void ScanPainter::add_sides_after(std::size_t beam) {
-  const std::size_t next = beam + 1 < beams_.count() ? beam + 1 : 0;
+  const std::size_t next = beams_.after(beam);
   const auto on_last_side = [&](double length_m) { return beams_.side(beam, length_m, 1.0); };
   const auto on_first_side = [&](double length_m) { return beams_.side(next, length_m, -1.0); };
   if (beams_.is_joined_with_next(beam)) return add_joint(beam);
-  if (beams_.shares_first_side(next)) return add_side(beams_.origin(beam), layers(beam), layers(next), on_last_side);
-  add_side(beams_.origin(beam), layers(beam), {}, on_last_side);
-  add_side(beams_.origin(next), {}, layers(next), on_first_side);
+  const double edge_m = beams_.hidden_from_m(beam, 1.0), next_edge_m = beams_.hidden_from_m(next, -1.0);
+  const Layers seen = layers(beam).up_to(edge_m), next_seen = layers(next).up_to(next_edge_m);
+  const bool is_common = beams_.shares_first_side(next);
+  if (is_common) {
+    add_side(beams_.origin(beam), 0.0, seen, next_seen, on_last_side);
+  } else {
+    add_side(beams_.origin(beam), 0.0, seen, {}, on_last_side);
+    add_side(beams_.origin(next), 0.0, {}, next_seen, on_first_side);
+  }
+  if (edge_m < kInfinity) add_hidden_side(beam, 1.0, on_last_side(edge_m));
+  if (next_edge_m < kInfinity)
+    add_hidden_side(next, -1.0, is_common ? on_last_side(next_edge_m) : on_first_side(next_edge_m));
 }
 
 /// Common sides begin where the sensor was for the first of the two: between its places free regions are open.
