@@ -222,8 +222,8 @@ void evidence_for_all_cells(benchmark::State& state) {
   std::vector<std::int32_t> to(numbers, -1);
   mapping::RegionFiller::Increments increments;
   increments[0].increment = evidence::fixed_increment({0.9, 0.05, 0.0, 0.05}, 0.01);
-  const double width = side * grids::Tile::kSide;
-  const std::vector<Eigen::Vector2d> square{{0.0, 0.0}, {width, 0.0}, {width, width}, {0.0, width}};
+  const auto width = static_cast<float>(side * grids::Tile::kSide);
+  const std::vector<mapping::RegionFiller::Corner> square{{0.0F, 0.0F}, {width, 0.0F}, {width, width}, {0.0F, width}};
   mapping::RegionFiller filler;
   mapping::PendingRegions pending;
   const int calls = calls_for(side);

@@ -33,11 +33,10 @@ struct TileChanges {
   alignas(64) std::array<Change, grids::Tile::kCells> cells;
   alignas(64) std::array<bool, grids::Tile::kSide> rows{};  ///< whether something changes in it
 
-  /// Evidence for all cells of a column of the grid from one in this tile up.
-  void change(std::int32_t column, std::int32_t row, const Quad& by) {
-    const auto place = static_cast<std::size_t>(grids::place_in_tile({column, row}));
-    cells[place].by += by;
-    rows[place >> grids::Tile::kShift] = true;
+  /// Evidence for all cells of a column of the grid from one at a place in this tile up.
+  void change(std::int32_t place, const Quad& by) {
+    cells[static_cast<std::size_t>(place)].by += by;
+    rows[static_cast<std::size_t>(place) >> grids::Tile::kShift] = true;
   }
 };
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 
 #include "evidence/log_commonality.hpp"
 
@@ -13,7 +14,10 @@ namespace credo::mapping {
 inline constexpr int kLevels = 32;
 
 /// The nearest step to a reliability in [0, 1]; 0 is no evidence, kLevels full reliability.
-[[nodiscard]] inline int level_of(double reliability) { return static_cast<int>(reliability * kLevels + 0.5); }
+template <std::floating_point Real>
+[[nodiscard]] int level_of(Real reliability) {
+  return static_cast<int>(reliability * Real{kLevels} + Real{0.5});
+}
 [[nodiscard]] constexpr double reliability_of(int level) { return static_cast<double>(level) / kLevels; }
 
 /// What a mass adds to a cell, at every level of `reliability`.

@@ -38,8 +38,7 @@ void PendingRegions::reach(const TileBox& box) {
   std::vector<std::unique_ptr<TileChanges>> before = std::exchange(tiles_, {});
   const TileBox old = std::exchange(box_, box);
   const std::size_t old_rows = rows_of(old);
-  rows_ = static_cast<std::int64_t>(rows_of(box));
-  first_ = box.low.x * rows_ + box.low.y;
+  rows_ = static_cast<std::int32_t>(rows_of(box));
   tiles_.resize(tiles_in(box));
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (before[i] == nullptr) continue;

@@ -29,30 +29,55 @@ class PendingRegions {
   /// \throws std::length_error if it is: it is unchanged then
   void end_set(grids::EvidentialGrid& grid);
 
-  /// Evidence for all cells of a column from a row up: what a region holds where the column enters it, and the same
-  /// with the other sign where it leaves it. Precondition: inside the box.
-  void change(std::int32_t column, std::int32_t row, const Quad& by) { tile_at(column, row).change(column, row, by); }
-  /// The tile that a cell is in. Precondition: inside the box.
-  [[nodiscard]] TileChanges& tile_at(std::int32_t column, std::int32_t row) {
-    std::unique_ptr<TileChanges>& tile = tiles_[place_of(grids::tile_of({column, row}))];
-    if (tile == nullptr) [[unlikely]]
-      tile = fresh_tile();
-    return *tile;
-  }
+  /// Writes changes down, until the next set begins. Evidence for all cells of a column from a row up: what a region
+  /// holds where the column enters it, and the same with the other sign where it leaves it. Cells must be inside the
+  /// box.
+  class Writer {
+   public:
+    /// Of a cell, its tile in the box and its place in there.
+    template <typename Numbers>
+    struct Spot {
+      Numbers tile, place;
+    };
+    /// Of one cell, or of many at a time.
+    template <typename Numbers>
+    [[nodiscard, gnu::always_inline]] Spot<Numbers> spot(const Numbers& column, const Numbers& row) const {
+      constexpr int kShift = grids::Tile::kShift, kMask = grids::Tile::kSide - 1;
+      return {((column >> kShift) - low_.x) * rows_ + (row >> kShift) - low_.y,
+              (row & kMask) << kShift | (column & kMask)};
+    }
+    [[gnu::always_inline]] void change(const Spot<std::int32_t>& spot, const Quad& by) const {
+      std::unique_ptr<TileChanges>& tile = tiles_[spot.tile];
+      if (tile == nullptr) [[unlikely]]
+        tile = pending_->fresh_tile();
+      tile->change(spot.place, by);
+    }
+
+   private:
+    friend class PendingRegions;
+    explicit Writer(PendingRegions& pending)
+        : tiles_(pending.tiles_.data()), low_(pending.box_.low), rows_(pending.rows_), pending_(&pending) {}
+
+    std::unique_ptr<TileChanges>* tiles_;
+    grids::TileIndex low_;
+    std::int32_t rows_;
+    PendingRegions* pending_;
+  };
+  [[nodiscard]] Writer writer() { return Writer(*this); }
 
   /// The grid takes in all that is pending. It has room for it, as end_set() has seen.
   void settle(grids::EvidentialGrid& grid);
 
  private:
   [[nodiscard]] std::size_t place_of(grids::TileIndex tile) const {
-    return static_cast<std::size_t>(tile.x * rows_ + tile.y - first_);
+    return static_cast<std::size_t>((tile.x - box_.low.x) * rows_ + tile.y - box_.low.y);
   }
   void reach(const TileBox& box);
   [[nodiscard, gnu::noinline]] std::unique_ptr<TileChanges> fresh_tile();
   void settle_into(grids::EvidentialGrid& grid);
 
   TileBox box_;
-  std::int64_t rows_ = 0, first_ = 0;  // of tiles in the box; the place of its lowest, were the box at (0, 0)
+  std::int32_t rows_ = 0;                            // of tiles in the box
   std::vector<std::unique_ptr<TileChanges>> tiles_;  // of the box, column after column; null: nothing was changed there
   std::vector<std::unique_ptr<TileChanges>> unused_;
   int sets_ = 0;

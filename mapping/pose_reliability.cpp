@@ -31,8 +31,9 @@ PoseReliability::PoseReliability(const evidence::Believed<geometry::PoseEstimate
   belief_ = share * std::min(pignistic, 1.0);
   const double position_variance = geometry::largest_variance(covariance.topLeftCorner<2, 2>());
   const double half = params.half_at_sigma_cells * resolution_m;
-  position_share_ = position_variance / (half * half);
-  heading_share_ = covariance(2, 2) / (half * half);
+  constexpr double kMost = 1e30;  // as good as infinite, also as a float
+  position_share_ = std::min(position_variance / (half * half), kMost);
+  heading_share_ = std::min(covariance(2, 2) / (half * half), kMost);
 }
 
 }  // namespace credo::mapping

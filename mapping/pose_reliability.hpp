@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <concepts>
+
 #include "evidence/believed.hpp"
 #include "geometry/pose.hpp"
 
@@ -32,8 +34,10 @@ class PoseReliability {
 
   /// share * pignistic / (1 + (sigma / half)^2), with sigma^2 the larger variance of the position plus that of the
   /// heading times range^2; 0 where nothing is to be mapped. In [0, 1].
-  [[nodiscard]] double at(double range_m) const {
-    return belief_ / (1.0 + position_share_ + heading_share_ * range_m * range_m);
+  template <std::floating_point Real>
+  [[nodiscard]] Real at(Real range_m) const {
+    return static_cast<Real>(belief_) /
+           (Real{1} + static_cast<Real>(position_share_) + static_cast<Real>(heading_share_) * range_m * range_m);
   }
   [[nodiscard]] bool maps_nothing() const { return belief_ <= 0.0; }
 

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,23 +31,39 @@ class RegionFiller {
     int right = kOutside;
   };
 
-  /// In cells: cell (i, j) spans [i, i+1) x [j, j+1).
+  /// In cells from the lower left corner of the base: single precision is enough beside it, and twice as fast.
   struct Corner {
-    double x = 0.0;
-    double y = 0.0;
+    float x = 0.0F;
+    float y = 0.0F;
   };
 
-  void clear();
+  /// Forgets the chains. \param base  from which the corners of the next ones are counted
+  void clear(grids::CellIndex base = {});
 
   /// More corners of the chain at hand.
-  void add_corner(const Corner& corner);
-  void add_corners(std::span<const double> x, std::span<const double> y);
+  void add_corner(const Corner& corner) {
+    x_.push_back(corner.x);
+    y_.push_back(corner.y);
+    chain_of_.push_back(static_cast<std::uint32_t>(chains_.size()));
+  }
+  void add_corners(std::span<const float> x, std::span<const float> y) {
+    x_.insert(x_.end(), x.begin(), x.end());
+    y_.insert(y_.end(), y.begin(), y.end());
+    chain_of_.resize(x_.size(), static_cast<std::uint32_t>(chains_.size()));
+  }
   /// Ends the chain at hand. All the chains of a class together must bound it: each corner is entered as often as left.
-  void end_chain(Sides sides);
+  void end_chain(const Sides& sides) {
+    assert(sides.left >= 0 && sides.left <= kOutside && sides.right >= 0 && sides.right <= kOutside);
+    chains_.push_back(sides);
+  }
   /// A chain of two corners.
-  void add_edge(const Corner& from, const Corner& to, Sides sides);
+  void add_edge(const Corner& from, const Corner& to, const Sides& sides) {
+    add_corner(from);
+    add_corner(to);
+    end_chain(sides);
+  }
   /// A closed chain around a class: the last corner is joined to the first.
-  void add_contour(std::span<const Eigen::Vector2d> corners, int region_class);
+  void add_contour(std::span<const Corner> corners, int region_class);
 
   /// What is known of the regions.
   enum class Regions {
@@ -61,18 +77,9 @@ class RegionFiller {
             Regions regions = Regions::kMayOverlap);
 
  private:
-  struct Chain {
-    std::size_t begin, end;  ///< of its corners
-    Sides sides;
-  };
   /// Upwards across an edge: the class below it and the one above.
   struct Passage {
     std::int16_t leave, enter;
-  };
-  /// An edge that crosses columns: from corner `from` to the next.
-  struct Edge {
-    std::uint32_t from;
-    Passage passage;
   };
   /// Where a column crosses an edge.
   struct Crossing {
@@ -80,31 +87,48 @@ class RegionFiller {
     Passage passage;
   };
   struct Winding;
+  struct Line;
 
-  [[nodiscard, gnu::always_inline]] static inline Quad change_of(const Passage& passage, const Increments& increments);
+  /// An edge that crosses more columns than its first, each with one of changes_.
+  struct LongEdge {
+    std::uint32_t from, change;
+  };
   void measure();
-  [[nodiscard, gnu::always_inline]] inline std::int32_t row_at(std::size_t edge, std::int32_t column) const;
-  [[nodiscard]] std::span<Edge> select_edges();
-  void cross_columns(std::span<const Edge> edges);
+  void mark_edges();
+  [[nodiscard, gnu::always_inline]] inline Line line_of(std::size_t edge) const;
+  template <typename Visit>
+  [[gnu::always_inline]] inline void for_each_edge(const Visit& visit) const;
+  void cross_columns();
   [[gnu::always_inline]] static inline void sort(std::span<Crossing> crossings);
   [[gnu::always_inline]] static inline void resolve(std::span<Crossing> crossings);
-  static void add_column(std::int32_t column, std::span<Crossing> crossings, PendingRegions& pending,
-                         const Increments& increments);
+  void add_column(std::int32_t column, std::span<Crossing> crossings, const PendingRegions::Writer& pending,
+                  const Increments& increments) const;
   void fill_overlapping(PendingRegions& pending, const Increments& increments);
   void fill_apart(PendingRegions& pending, const Increments& increments);
+  [[nodiscard]] std::size_t cross_first_columns(PendingRegions& pending, const Increments& increments);
+  void cross_later_columns(PendingRegions& pending, std::size_t count);
 
-  std::vector<double> x_, y_;  // the corners
-  std::vector<Chain> chains_;
-  std::size_t chain_begin_ = 0;
+  grids::CellIndex base_;     // what follows is counted from there
+  std::vector<float> x_, y_;  // the corners
+  std::vector<std::uint32_t> chain_of_;
+  std::vector<Sides> chains_;
 
   std::vector<std::int32_t> columns_;                // first_centre of the corners along x
-  std::vector<double> slopes_;                       // of the edges that begin there, up a column for each column
+  std::vector<float> slopes_;                        // of the edges that begin there, up a column for each column
   std::vector<std::int32_t> first_rows_;             // and where they cross their first column
   std::int32_t first_column_ = 0, last_column_ = 0;  // of all corners
   PendingRegions::TileBox tiles_;                    // that they are in
-  std::vector<Edge> edges_;
+  std::vector<std::uint64_t> edges_;                 // bit i of them: edge i crosses a column
+
+  // Where regions may overlap.
   std::vector<Crossing> crossings_;  // by column
   std::vector<std::uint32_t> column_end_;
+
+  // Where they lie apart.
+  std::vector<Quad> changes_;
+  std::vector<LongEdge> long_edges_;
+  std::size_t long_count_ = 0;  // of those
+  std::vector<std::int32_t> later_tiles_, later_places_, later_changes_;
 };
 
 }  // namespace credo::mapping

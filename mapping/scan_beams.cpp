@@ -4,7 +4,6 @@
 #include "mapping/scan_beams.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -25,23 +24,14 @@ constexpr int kPathKnots = 16;  // poses along a scan, between which the motion 
 // What is closer may change its order by rounding.
 constexpr double kLeastAngle = 1e-4;  // [rad]
 constexpr double kLeastCells = 1e-3;
+constexpr double kLeastShare = 1e-6;  // of the reach of the beams: some steps of single precision
 constexpr double kRounding = 1e-9;
+constexpr double kMostMetres = 1e9;
 constexpr double kWallHalfCells =
     0.55;  // to either side of a surface: half a cell, and a bit for one on a border of cells
 // Of half a sector, where a nearer thing hides it: its edge is as likely in one place between the beams as in another,
 // so what is left is hidden with 5 percent at most.
 constexpr double kSeenShare = 0.1;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// The greatest of some lengths, 0 if there is none; eight at a time.
-double greatest(const std::vector<double>& lengths) {
-  std::array<double, 8> most{};
-  std::size_t i = 0;
-  for (; i + most.size() <= lengths.size(); i += most.size())
-    for (std::size_t k = 0; k < most.size(); ++k) most[k] = most[k] > lengths[i + k] ? most[k] : lengths[i + k];
-  for (; i < lengths.size(); ++i) most[0] = std::max(most[0], lengths[i]);
-  return std::ranges::max(most);
-}
 
 void require(bool holds, const std::string& message) {
   if (!holds) throw std::invalid_argument("range finder: " + message);
@@ -74,65 +64,85 @@ ScanBeams::ScanBeams(const sensors::RangeFinder& range_finder, const grids::Geor
   all_round_ = touching_ && std::abs(2.0 * half * range_finder.count - 2.0 * std::numbers::pi) < kRounding;
   const double half_sector_rad =
       std::copysign(std::min(half, params.max_half_sector_rad), range_finder.angle_increment_rad);
-  half_sector_cos_ = std::cos(half_sector_rad);
-  half_sector_sin_ = std::sin(half_sector_rad);
-  hidden_cos_ = std::cos(kSeenShare * half_sector_rad);
-  hidden_sin_ = std::sin(kSeenShare * half_sector_rad);
-  cells_per_metre_ = 1.0 / georeference.resolution_m;
+  half_sector_ = {static_cast<float>(std::cos(half_sector_rad)), static_cast<float>(std::sin(half_sector_rad))};
+  hidden_sector_ = {static_cast<float>(std::cos(kSeenShare * half_sector_rad)),
+                    static_cast<float>(std::sin(kSeenShare * half_sector_rad))};
+  cells_per_metre_ = static_cast<float>(1.0 / georeference.resolution_m);
+  const double widest_m = std::max(kWallHalfCells * georeference.resolution_m / std::sin(params.min_incidence_rad),
+                                   double{std::ranges::max(tables_.half_width_m)});
+  reach_m_ = std::min(range_finder.range_max_m, params.max_range_m) + widest_m + 2.0 * georeference.resolution_m;
+  least_step_m_ = static_cast<float>(std::max(kLeastCells * georeference.resolution_m, kLeastShare * reach_m_));
   for (int beam = 0; beam < range_finder.count; ++beam) {
     const double angle = range_finder.beam_angle(beam);
-    sensor_x_.push_back(std::cos(angle));
-    sensor_y_.push_back(std::sin(angle));
+    sensor_x_.push_back(static_cast<float>(std::cos(angle)));
+    sensor_y_.push_back(static_cast<float>(std::sin(angle)));
   }
   const auto count = static_cast<std::size_t>(range_finder.count);
-  for (std::vector<double>* values :
+  for (std::vector<float>* values :
        {&origin_x_,      &origin_y_, &direction_x_, &direction_y_,   &range_m_,      &sine_before_, &sine_after_,
         &free_.length_m, &free_.x,   &free_.y,      &near_.length_m, &near_.x,       &near_.y,      &far_.length_m,
         &far_.x,         &far_.y,    &echo_,        &margin_m_,      &half_width_m_, &hit_share_})
     values->resize(count);
   free_level_.resize(count);
   hit_level_.resize(count);
+  bin_.resize(count);
 }
 
 /// What the readings are, and what the laser's tables hold for each.
 ScanBeams::Counts ScanBeams::look_up(std::span<const float> ranges_m) {
-  const double least_m = range_finder_.range_min_m, most_m = range_finder_.range_max_m;
-  Counts counts;
-  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-    const double reading_m = ranges_m[i];
-    const bool echo = (reading_m >= least_m) & (reading_m <= most_m);
-    counts.echoes += echo;
-    counts.no_returns += reading_m == kInfinity;
-    counts.missing += reading_m != reading_m;
-    const double range_m = echo ? reading_m : 0.0;
-    const auto bin = static_cast<std::size_t>(range_m * tables_.bins_per_metre);
-    echo_[i] = echo ? 1.0 : 0.0;
-    range_m_[i] = range_m;
+  const auto least_m = static_cast<float>(range_finder_.range_min_m),
+             most_m = static_cast<float>(std::min(range_finder_.range_max_m, kMostMetres));
+  const auto bins_per_metre = static_cast<float>(tables_.bins_per_metre);
+  const float* const readings_m = ranges_m.data();
+  int echoes = 0, no_returns = 0, missing = 0;
+  grids::run_with(
+      grids::best_instructions(), [&]() __attribute__((always_inline)) {
+        int some_echoes = 0, some_no_returns = 0, some_missing = 0;
+#pragma GCC ivdep
+        for (std::size_t i = 0; i < range_m_.size(); ++i) {
+          const float reading_m = readings_m[i];
+          const bool echo = (reading_m >= least_m) & (reading_m <= most_m);
+          some_echoes += echo ? 1 : 0;
+          some_no_returns += reading_m == std::numeric_limits<float>::infinity() ? 1 : 0;
+          some_missing += reading_m != reading_m ? 1 : 0;
+          const float range_m = echo ? reading_m : 0.0F;
+          echo_[i] = echo ? 1.0F : 0.0F;
+          range_m_[i] = range_m;
+          bin_[i] = static_cast<int>(range_m * bins_per_metre);
+        }
+        echoes = some_echoes;
+        no_returns = some_no_returns;
+        missing = some_missing;
+      });
+  for (std::size_t i = 0; i < bin_.size(); ++i) {
+    const auto bin = static_cast<std::size_t>(bin_[i]);
     margin_m_[i] = tables_.free_margin_m[bin];
     half_width_m_[i] = tables_.half_width_m[bin];
     hit_share_[i] = tables_.hit_share[bin];
   }
-  counts.out_of_range = static_cast<int>(ranges_m.size()) - counts.echoes - counts.no_returns - counts.missing;
-  return counts;
+  return {.echoes = echoes,
+          .no_returns = no_returns,
+          .missing = missing,
+          .out_of_range = static_cast<int>(ranges_m.size()) - echoes - no_returns - missing};
 }
 
 /// What every beam says, and how strongly. As all loops over the beams without a branch, and told (`ivdep`) that the
 /// arrays do not overlap, so that it is vectorised.
 ScanBeams::Counts ScanBeams::classify(std::span<const float> ranges_m, const PoseReliability& reliability) {
   const Counts counts = look_up(ranges_m);
-  const double reach_m = std::min(params_.max_range_m, range_finder_.range_max_m);
-  const double max_range_m = params_.max_range_m;
+  const auto max_range_m = static_cast<float>(std::min(params_.max_range_m, kMostMetres));
+  const float reach_m = std::min(max_range_m, static_cast<float>(std::min(range_finder_.range_max_m, kMostMetres)));
   grids::run_with(
       grids::best_instructions(), [&]() __attribute__((always_inline)) {
 #pragma GCC ivdep
         for (std::size_t i = 0; i < range_m_.size(); ++i) {
-          const double echo = echo_[i], range_m = range_m_[i], half_width_m = half_width_m_[i];
-          const double trust = reliability.at(std::min(range_m, reach_m));
-          const double in_reach = range_m <= max_range_m ? echo : 0.0;
+          const float echo = echo_[i], range_m = range_m_[i], half_width_m = half_width_m_[i];
+          const float trust = reliability.at(std::min(range_m, reach_m));
+          const float in_reach = range_m <= max_range_m ? echo : 0.0F;
           free_level_[i] = level_of(echo * trust);
           hit_level_[i] = level_of(in_reach * trust * hit_share_[i]);
-          free_.length_m[i] = echo * std::min(std::max(0.0, range_m - margin_m_[i]), reach_m);
-          near_.length_m[i] = echo * std::max(0.0, range_m - half_width_m);
+          free_.length_m[i] = echo * std::min(std::max(0.0F, range_m - margin_m_[i]), reach_m);
+          near_.length_m[i] = echo * std::max(0.0F, range_m - half_width_m);
           far_.length_m[i] = echo * (range_m + half_width_m);
         }
       });
@@ -147,15 +157,15 @@ void ScanBeams::classify_no_returns(std::span<const float> ranges_m, const PoseR
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
     if (ranges_m[i] != std::numeric_limits<float>::infinity()) continue;
     free_level_[i] = free;
-    free_.length_m[i] = free_m;
+    free_.length_m[i] = static_cast<float>(free_m);
   }
 }
 
 /// Beams [begin, end) are taken from one pose.
 void ScanBeams::set_pose(std::size_t begin, std::size_t end, const Pose2& sensor) {
-  const double c = std::cos(sensor.theta), s = std::sin(sensor.theta);
-  const double x = (sensor.x - georeference_.origin_x_m) / georeference_.resolution_m;
-  const double y = (sensor.y - georeference_.origin_y_m) / georeference_.resolution_m;
+  const auto c = static_cast<float>(std::cos(sensor.theta)), s = static_cast<float>(std::sin(sensor.theta));
+  const auto x = static_cast<float>((sensor.x - georeference_.origin_x_m) / georeference_.resolution_m - base_.x);
+  const auto y = static_cast<float>((sensor.y - georeference_.origin_y_m) / georeference_.resolution_m - base_.y);
   grids::run_with(
       grids::best_instructions(), [&]() __attribute__((always_inline)) {
 #pragma GCC ivdep
@@ -201,26 +211,26 @@ double ScanBeams::place(const Pose2& T_map_base, const sensors::MotionPath& path
 
 /// Which neighbours hit one surface.
 void ScanBeams::join() {
-  const double min_sine = std::sin(params_.min_incidence_rad);
-  const double resolution = georeference_.resolution_m;
+  const auto min_sine = static_cast<float>(std::sin(params_.min_incidence_rad));
+  const auto resolution = static_cast<float>(georeference_.resolution_m);
   const std::size_t count = range_m_.size();
-  sine_before_.front() = sine_after_.back() = 0.0;
+  sine_before_.front() = sine_after_.back() = 0.0F;
   grids::run_with(
       grids::best_instructions(), [&]() __attribute__((always_inline)) {
 #pragma GCC ivdep
         for (std::size_t i = 0; i + 1 < count; ++i) {
-          const double along_x = range_m_[i + 1] * direction_x_[i + 1] - range_m_[i] * direction_x_[i] +
-                                 (origin_x_[i + 1] - origin_x_[i]) * resolution;
-          const double along_y = range_m_[i + 1] * direction_y_[i + 1] - range_m_[i] * direction_y_[i] +
-                                 (origin_y_[i + 1] - origin_y_[i]) * resolution;
-          const double length = std::sqrt(along_x * along_x + along_y * along_y);
-          const double across = std::abs(direction_x_[i] * along_y - direction_y_[i] * along_x);
-          const double across_next = std::abs(direction_x_[i + 1] * along_y - direction_y_[i + 1] * along_x);
+          const float along_x = range_m_[i + 1] * direction_x_[i + 1] - range_m_[i] * direction_x_[i] +
+                                (origin_x_[i + 1] - origin_x_[i]) * resolution;
+          const float along_y = range_m_[i + 1] * direction_y_[i + 1] - range_m_[i] * direction_y_[i] +
+                                (origin_y_[i + 1] - origin_y_[i]) * resolution;
+          const float length = std::sqrt(along_x * along_x + along_y * along_y);
+          const float across = std::abs(direction_x_[i] * along_y - direction_y_[i] * along_x);
+          const float across_next = std::abs(direction_x_[i + 1] * along_y - direction_y_[i + 1] * along_x);
           const bool joined =
-              (hit_level_[i] > 0) & (hit_level_[i + 1] > 0) & (length > 0.0) & (across >= min_sine * length);
-          const double divisor = joined ? length : 1.0;
-          sine_after_[i] = joined ? across / divisor : 0.0;
-          sine_before_[i + 1] = joined ? std::max(min_sine, across_next / divisor) : 0.0;
+              (hit_level_[i] > 0) & (hit_level_[i + 1] > 0) & (length > 0.0F) & (across >= min_sine * length);
+          const float per_length = 1.0F / (joined ? length : 1.0F);
+          sine_after_[i] = joined ? across * per_length : 0.0F;
+          sine_before_[i + 1] = joined ? std::max(min_sine, across_next * per_length) : 0.0F;
         }
       });
 }
@@ -229,19 +239,19 @@ void ScanBeams::join() {
 /// through has its centre in it: about half a cell to either side of the surface.
 void ScanBeams::widen() {
   const std::size_t count = range_m_.size();
-  const double across_m = kWallHalfCells * georeference_.resolution_m;
+  const auto across_m = static_cast<float>(kWallHalfCells * georeference_.resolution_m);
   grids::run_with(
       grids::best_instructions(), [&]() __attribute__((always_inline)) {
 #pragma GCC ivdep
         for (std::size_t i = 0; i < count; ++i) {
-          const double before = sine_before_[i], after = sine_after_[i];
-          const double range_m = range_m_[i], free_m = free_.length_m[i], near_m = near_.length_m[i],
-                       far_m = far_.length_m[i];
-          const double sine = before > after ? before : after;  // of two surfaces, the one met more steeply
-          const bool widened = (sine > 0.0) & ((far_m - range_m) * sine < across_m);
-          const double half_m = across_m / (widened ? sine : 1.0);
-          const double wide_near_m = std::max(0.0, range_m - half_m), wide_far_m = range_m + half_m;
-          const double wide_free_m = std::min(free_m, wide_near_m);
+          const float before = sine_before_[i], after = sine_after_[i];
+          const float range_m = range_m_[i], free_m = free_.length_m[i], near_m = near_.length_m[i],
+                      far_m = far_.length_m[i];
+          const float sine = before > after ? before : after;  // of two surfaces, the one met more steeply
+          const bool widened = (sine > 0.0F) & ((far_m - range_m) * sine < across_m);
+          const float half_m = across_m / (widened ? sine : 1.0F);
+          const float wide_near_m = std::max(0.0F, range_m - half_m), wide_far_m = range_m + half_m;
+          const float wide_free_m = std::min(free_m, wide_near_m);
           far_.length_m[i] = widened ? wide_far_m : far_m;
           near_.length_m[i] = widened ? wide_near_m : near_m;
           free_.length_m[i] = widened ? wide_free_m : free_m;
@@ -254,74 +264,29 @@ void ScanBeams::measure(Outline& outline) const {
       grids::best_instructions(), [&]() __attribute__((always_inline)) {
 #pragma GCC ivdep
         for (std::size_t i = 0; i < outline.x.size(); ++i) {
-          const double length = outline.length_m[i] * cells_per_metre_;
+          const float length = outline.length_m[i] * cells_per_metre_;
           outline.x[i] = origin_x_[i] + length * direction_x_[i];
           outline.y[i] = origin_y_[i] + length * direction_y_[i];
         }
       });
 }
 
-bool ScanBeams::shares_first_side(std::size_t beam) const {
-  return sine_before_[beam] > 0.0 || (touching_ && (beam > 0 || (all_round_ && !moving_)));
-}
-
-/// Up to where all that a beam says begins: nothing of it is nearer.
-double ScanBeams::first_end_m(std::size_t beam) const {
-  const double free_m = free_.length_m[beam];
-  return hit_level_[beam] > 0 ? std::min(free_m, near_.length_m[beam]) : free_m;
-}
-
-double ScanBeams::hidden_from_m(std::size_t beam, double turn) const {
-  const std::size_t other = turn > 0.0 ? after(beam) : before(beam), first = turn > 0.0 ? beam : other;
-  const bool are_neighbours = all_round_ || first + 1 < count();
-  if (!are_neighbours || sine_after_[first] > 0.0 || hit_level_[other] == 0) return kInfinity;
-  const double edge_m = far_.length_m[other];
-  return first_end_m(beam) > edge_m + kLeastCells * georeference_.resolution_m ? edge_m : kInfinity;
-}
-
-ScanBeams::Point ScanBeams::beside(std::size_t beam, double length_m, double turn_cos, double turn_sin) const {
-  const double length = length_m * cells_per_metre_;
-  return {origin_x_[beam] + length * (turn_cos * direction_x_[beam] - turn_sin * direction_y_[beam]),
-          origin_y_[beam] + length * (turn_sin * direction_x_[beam] + turn_cos * direction_y_[beam])};
-}
-
-ScanBeams::Point ScanBeams::side(std::size_t beam, double length_m, double turn) const {
-  if (length_m > hidden_from_m(beam, turn)) return hidden_side(beam, length_m, turn);
-  return beside(beam, length_m, half_sector_cos_, turn * half_sector_sin_);
-}
-
-ScanBeams::Point ScanBeams::hidden_side(std::size_t beam, double length_m, double turn) const {
-  return beside(beam, length_m, hidden_cos_, turn * hidden_sin_);
-}
-
-ScanBeams::Point ScanBeams::end(std::size_t beam, const Outline& outline) const {
-  if (sine_after_[beam] > 0.0)
-    return {0.5 * (outline.x[beam] + outline.x[beam + 1]), 0.5 * (outline.y[beam] + outline.y[beam + 1])};
-  return side(beam, outline.length_m[beam], 1.0);
-}
-
-ScanBeams::Point ScanBeams::start(std::size_t beam, const Outline& outline) const {
-  if (sine_before_[beam] > 0.0) return end(beam - 1, outline);
-  const double length_m = outline.length_m[beam];
-  const bool is_common = shares_first_side(beam) && length_m <= hidden_from_m(beam, -1.0);
-  return is_common ? side(before(beam), length_m, 1.0) : side(beam, length_m, -1.0);
-}
-
 /// How the outlines lie to each other: whether the occupied part begins as the free one ends, so that one outline will
 /// do for both, and whether all regions lie side by side around one place, with outlines that are the same or apart.
 void ScanBeams::compare_outlines() {
-  const double least_m = kLeastCells * georeference_.resolution_m;
+  const float least_m = least_step_m_;
   int between = 0, close = 0;
   grids::run_with(
       grids::best_instructions(), [&]() __attribute__((always_inline)) {
         int some_between = 0, some_close = 0;
 #pragma GCC ivdep
         for (std::size_t i = 0; i < range_m_.size(); ++i) {
-          const double free_m = free_.length_m[i], near_m = near_.length_m[i], far_m = far_.length_m[i];
-          const double hit = hit_level_[i], gap_m = near_m - free_m, thick_m = far_m - near_m;
-          const double is_between = gap_m != 0.0 ? hit : 0.0;
-          const double is_thin = (thick_m < least_m) | ((gap_m != 0.0) & (gap_m < least_m)) ? hit : 0.0;
-          const double is_short = (free_m > 0.0) & (free_m < least_m) ? 1.0 : 0.0;
+          const float free_m = free_.length_m[i], near_m = near_.length_m[i], far_m = far_.length_m[i];
+          const auto hit = static_cast<float>(hit_level_[i]);
+          const float gap_m = near_m - free_m, thick_m = far_m - near_m;
+          const float is_between = gap_m != 0.0F ? hit : 0.0F;
+          const float is_thin = (thick_m < least_m) | ((gap_m != 0.0F) & (gap_m < least_m)) ? hit : 0.0F;
+          const float is_short = (free_m > 0.0F) & (free_m < least_m) ? 1.0F : 0.0F;
           some_between += static_cast<int>(is_between);
           some_close += static_cast<int>(is_thin + is_short);
         }
@@ -342,15 +307,15 @@ ScanBeams::Counts ScanBeams::read(const Pose2& T_map_base, const PoseReliability
     throw std::invalid_argument("a scan has " + std::to_string(ranges_m.size()) + " ranges, its range finder " +
                                 std::to_string(range_m_.size()) + " beams");
   const Counts counts = classify(ranges_m, reliability);
+  const Eigen::Vector2d here = T_map_base * range_finder_.T_base_sensor.translation();
+  base_ = georeference_.cell_at(here);
   const double moved_m = place(T_map_base, path, time);
   if (!(moved_m <= std::max(range_finder_.range_max_m, 1.0)))
     throw std::out_of_range("the motion given with a scan carries the sensor " + std::to_string(moved_m) +
                             " m away within the scan: leave the motion out or correct it");
   join();
   widen();
-  const double reach_m = std::max(greatest(free_.length_m), greatest(far_.length_m)) + moved_m;
-  const Eigen::Vector2d here = T_map_base * range_finder_.T_base_sensor.translation();
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach_m + 2.0 * georeference_.resolution_m);
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach_m_ + moved_m);
   static_cast<void>(georeference_.cell_at(here - margin));
   static_cast<void>(georeference_.cell_at(here + margin));
   compare_outlines();

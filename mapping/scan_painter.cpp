@@ -10,7 +10,7 @@
 namespace credo::mapping {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 int free_class(int level) { return level > 0 ? level - 1 : RegionFiller::kOutside; }
 int hit_class(int level) { return level > 0 ? kLevels + level - 1 : RegionFiller::kOutside; }
@@ -50,19 +50,19 @@ RegionFiller::Sides ScanPainter::seen_outwards(RegionFiller::Sides sides) const 
 /// What lies along a side of a beam's sector, from the sensor outwards.
 struct ScanPainter::Layers {
   int free = RegionFiller::kOutside, hit = RegionFiller::kOutside;
-  double free_m = 0.0, near_m = 0.0, far_m = 0.0;
+  float free_m = 0.0F, near_m = 0.0F, far_m = 0.0F;
 
-  [[nodiscard]] int at(double length_m) const {
+  [[nodiscard]] int at(float length_m) const {
     if (length_m < free_m) return free;
     return near_m <= length_m && length_m < far_m ? hit : RegionFiller::kOutside;
   }
   /// The next border, infinite after the last.
-  [[nodiscard]] double after(double length_m) const {
-    for (const double border : {free_m, near_m, far_m})
+  [[nodiscard]] float after(float length_m) const {
+    for (const float border : {free_m, near_m, far_m})
       if (border > length_m) return border;
     return kInfinity;
   }
-  [[nodiscard]] Layers up_to(double length_m) const {
+  [[nodiscard]] Layers up_to(float length_m) const {
     return {free, hit, std::min(free_m, length_m), std::min(near_m, length_m), std::min(far_m, length_m)};
   }
 };
@@ -80,11 +80,11 @@ ScanPainter::Layers ScanPainter::layers(std::size_t beam) const {
 /// \param start  of the side, so far from the sensor
 /// \param place  of a length along it
 template <typename Place>
-void ScanPainter::add_side(const Point& start, double start_m, const Layers& before, const Layers& after,
+void ScanPainter::add_side(const Point& start, float start_m, const Layers& before, const Layers& after,
                            const Place& place) {
   Point from = start;
-  for (double length_m = start_m;;) {
-    const double next_m = std::min(before.after(length_m), after.after(length_m));
+  for (float length_m = start_m;;) {
+    const float next_m = std::min(before.after(length_m), after.after(length_m));
     if (next_m == kInfinity) return;
     const Point to = place(next_m);
     const int left = after.at(length_m), right = before.at(length_m);
@@ -96,13 +96,13 @@ void ScanPainter::add_side(const Point& start, double start_m, const Layers& bef
 
 /// The rest of a side, from where that half of the sector is hidden.
 /// \param edge  where the side came to so far
-void ScanPainter::add_hidden_side(std::size_t beam, double turn, const Point& edge) {
-  const double edge_m = beams_.hidden_from_m(beam, turn);
-  const Layers own = layers(beam), before = turn > 0.0 ? own : Layers{}, after = turn > 0.0 ? Layers{} : own;
+void ScanPainter::add_hidden_side(std::size_t beam, float turn, const Point& edge) {
+  const float edge_m = beams_.hidden_from_m(beam, turn);
+  const Layers own = layers(beam), before = turn > 0.0F ? own : Layers{}, after = turn > 0.0F ? Layers{} : own;
   const Point start = beams_.hidden_side(beam, edge_m, turn);
   const int left = after.at(edge_m), right = before.at(edge_m);
   if (left != right) filler_.add_edge(edge, start, seen_outwards({.left = left, .right = right}));
-  add_side(start, edge_m, before, after, [&](double length_m) { return beams_.side(beam, length_m, turn); });
+  add_side(start, edge_m, before, after, [&](float length_m) { return beams_.side(beam, length_m, turn); });
 }
 
 /// The side between beams that hit one surface but are trusted differently.
@@ -119,21 +119,21 @@ void ScanPainter::add_joint(std::size_t beam) {
 /// The sides after a beam: its own and that of the next, which may be one.
 void ScanPainter::add_sides_after(std::size_t beam) {
   const std::size_t next = beams_.after(beam);
-  const auto on_last_side = [&](double length_m) { return beams_.side(beam, length_m, 1.0); };
-  const auto on_first_side = [&](double length_m) { return beams_.side(next, length_m, -1.0); };
+  const auto on_last_side = [&](float length_m) { return beams_.side(beam, length_m, 1.0F); };
+  const auto on_first_side = [&](float length_m) { return beams_.side(next, length_m, -1.0F); };
   if (beams_.is_joined_with_next(beam)) return add_joint(beam);
-  const double edge_m = beams_.hidden_from_m(beam, 1.0), next_edge_m = beams_.hidden_from_m(next, -1.0);
+  const float edge_m = beams_.hidden_from_m(beam, 1.0F), next_edge_m = beams_.hidden_from_m(next, -1.0F);
   const Layers seen = layers(beam).up_to(edge_m), next_seen = layers(next).up_to(next_edge_m);
   const bool is_common = beams_.shares_first_side(next);
   if (is_common) {
-    add_side(beams_.origin(beam), 0.0, seen, next_seen, on_last_side);
+    add_side(beams_.origin(beam), 0.0F, seen, next_seen, on_last_side);
   } else {
-    add_side(beams_.origin(beam), 0.0, seen, {}, on_last_side);
-    add_side(beams_.origin(next), 0.0, {}, next_seen, on_first_side);
+    add_side(beams_.origin(beam), 0.0F, seen, {}, on_last_side);
+    add_side(beams_.origin(next), 0.0F, {}, next_seen, on_first_side);
   }
-  if (edge_m < kInfinity) add_hidden_side(beam, 1.0, on_last_side(edge_m));
+  if (edge_m < kInfinity) add_hidden_side(beam, 1.0F, on_last_side(edge_m));
   if (next_edge_m < kInfinity)
-    add_hidden_side(next, -1.0, is_common ? on_last_side(next_edge_m) : on_first_side(next_edge_m));
+    add_hidden_side(next, -1.0F, is_common ? on_last_side(next_edge_m) : on_first_side(next_edge_m));
 }
 
 /// Common sides begin where the sensor was for the first of the two: between its places free regions are open.
@@ -170,7 +170,7 @@ ScanBeams::Counts ScanPainter::paint(grids::EvidentialGrid& grid, PendingRegions
                                      std::span<const float> ranges_m, const sensors::MotionPath& path,
                                      sensors::Timestamp time) {
   const ScanBeams::Counts counts = beams_.read(T_map_base, reliability, ranges_m, path, time);
-  filler_.clear();
+  filler_.clear(beams_.base());
   add_contours();
   filler_.fill(grid, pending, increments_,
                beams_.are_apart() ? RegionFiller::Regions::kApart : RegionFiller::Regions::kMayOverlap);

@@ -40,8 +40,8 @@ class ScanPainter {
   [[nodiscard]] Layers layers(std::size_t beam) const;
   void add_outline(const Outline& outline, std::size_t first, std::size_t last, RegionFiller::Sides sides);
   template <typename Place>
-  void add_side(const Point& start, double start_m, const Layers& before, const Layers& after, const Place& place);
-  void add_hidden_side(std::size_t beam, double turn, const Point& edge);
+  void add_side(const Point& start, float start_m, const Layers& before, const Layers& after, const Place& place);
+  void add_hidden_side(std::size_t beam, float turn, const Point& edge);
   void add_joint(std::size_t beam);
   void add_sides_after(std::size_t beam);
   void add_ways_of_sensor();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <vector>
 
@@ -12,10 +13,13 @@
 namespace credo::mapping {
 
 /// The first column, or row, whose centre is not below a coordinate in cells.
-[[nodiscard]] inline std::int32_t first_centre(double coordinate) {
-  const double centre = coordinate - 0.5;
+template <std::floating_point Real>
+[[nodiscard]] std::int32_t first_centre(Real coordinate) {
+  const Real centre = coordinate - Real{0.5};
   const auto towards_zero = static_cast<std::int32_t>(centre);
-  return towards_zero + (towards_zero < centre ? 1 : 0);  // the ceiling, without a call where SSE 4.1 is not assumed
+  return towards_zero + (static_cast<Real>(towards_zero) < centre
+                             ? 1
+                             : 0);  // the ceiling, without a call where SSE 4.1 is not assumed
 }
 
 /// The tiles of a grid under a rectangle of cells, looked up once each and made when first written to.

@@ -60,7 +60,7 @@ TEST(CellKernels, ATileTakesInTheRegionsThatItsColumnsCross) {
     const PaddedIncrement evidence{random_increment(random)};
     fill(column, std::max(first, 0), std::min(last, Tile::kSide), evidence.increment);
     if (first >= 0) {
-      changes->change(column, first, evidence.quad());
+      changes->change(grids::place_in_tile({column, first}), evidence.quad());
     } else {
       Channels& cells = below.cells[static_cast<std::size_t>(column / grids::kLanes)];
       cells.empty[column % grids::kLanes] += evidence.increment.empty;
@@ -68,7 +68,7 @@ TEST(CellKernels, ATileTakesInTheRegionsThatItsColumnsCross) {
       cells.unknown[column % grids::kLanes] += evidence.increment.unknown;
       below.held |= 1U << column / grids::kLanes;
     }
-    if (last < Tile::kSide) changes->change(column, last, -evidence.quad());
+    if (last < Tile::kSide) changes->change(grids::place_in_tile({column, last}), -evidence.quad());
   }
   for (const Instructions instructions : {Instructions::kBaseline, grids::best_instructions()}) {
     grids::EvidentialGrid grid = before;
@@ -87,7 +87,7 @@ TEST(CellKernels, ARegionThatEndsBelowATileMakesNone) {
   RowEvidence evidence;
   evidence.cells[0].empty[3] = -7;
   evidence.held = 1;
-  changes.change(3, 0, Quad{7, 0, 0, 0});
+  changes.change(3, Quad{7, 0, 0, 0});
   settle_tile(grid, {0, 0}, &changes, evidence);
   EXPECT_TRUE(grid.tiles().empty());
   EXPECT_EQ(evidence.held, 0U);

@@ -15,7 +15,7 @@
 namespace credo::mapping {
 namespace {
 
-using Square = std::vector<Eigen::Vector2d>;
+using Square = std::vector<RegionFiller::Corner>;
 using grids::EvidentialGrid;
 
 RegionFiller::Increments strongest() {
@@ -24,7 +24,7 @@ RegionFiller::Increments strongest() {
   return increments;
 }
 
-Square square(double x, double y, double side) { return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}}; }
+Square square(float x, float y, float side) { return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}}; }
 
 void fill(EvidentialGrid& grid, PendingRegions& pending, const Square& region) {
   RegionFiller filler;
@@ -35,12 +35,12 @@ void fill(EvidentialGrid& grid, PendingRegions& pending, const Square& region) {
 /// Near and far, small and large, again and again: the box of what is pending grows, and starts anew.
 TEST(PendingRegions, AreInTheMapAsIfEachHadBeenTakenInWhenItCame) {
   std::mt19937 random(3);
-  std::vector<Square> regions(300, square(-20.0, 7.0, 90.0));  // one place, more often than sums may wait
+  std::vector<Square> regions(300, square(-20.0F, 7.0F, 90.0F));  // one place, more often than sums may wait
   for (int k = 0; k < 60; ++k) {
-    const double far = k % 7 == 0 ? 1e5 : 400.0;
-    const auto place = [&] { return far * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
-    const double x = place(), y = place();
-    regions.push_back(square(x, y, k % 11 == 0 ? 2500.0 : 1.0 + static_cast<double>(random() % 200)));
+    const float far = k % 7 == 0 ? 1e5F : 400.0F;
+    const auto place = [&] { return far * (static_cast<float>(random() % 65'536) / 65'536.0F - 0.5F); };
+    const float x = place(), y = place();
+    regions.push_back(square(x, y, k % 11 == 0 ? 2500.0F : 1.0F + static_cast<float>(random() % 200)));
   }
   std::ranges::shuffle(regions, random);
   EvidentialGrid together, one_by_one;
@@ -61,15 +61,15 @@ TEST(PendingRegions, AreInTheMapAsIfEachHadBeenTakenInWhenItCame) {
 TEST(PendingRegions, ARegionThatTheMapHasNoRoomForIsRefusedAndTheOthersStay) {
   EvidentialGrid grid({}, 9), expected({}, 9);
   PendingRegions pending, alone;
-  fill(grid, pending, square(1.0, 1.0, 180.0));  // 3 x 3 tiles
-  fill(expected, alone, square(1.0, 1.0, 180.0));
+  fill(grid, pending, square(1.0F, 1.0F, 180.0F));  // 3 x 3 tiles
+  fill(expected, alone, square(1.0F, 1.0F, 180.0F));
   alone.settle(expected);
-  EXPECT_THROW(fill(grid, pending, square(1.0, 1.0, 200.0)), std::length_error);
-  fill(grid, pending, square(-1.0, -1.0, 0.2));  // holds no centre of a cell
+  EXPECT_THROW(fill(grid, pending, square(1.0F, 1.0F, 200.0F)), std::length_error);
+  fill(grid, pending, square(-1.0F, -1.0F, 0.2F));  // holds no centre of a cell
   pending.settle(grid);
   EXPECT_EQ(grid, expected);
   EXPECT_EQ(grid.room(), 0U);
-  fill(grid, pending, square(10.0, 10.0, 100.0));  // what the map has it goes on to fill
+  fill(grid, pending, square(10.0F, 10.0F, 100.0F));  // what the map has it goes on to fill
   pending.settle(grid);
   EXPECT_LT(grid.at({50, 50}).unknown, expected.at({50, 50}).unknown);
 }

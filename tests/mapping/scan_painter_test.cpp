@@ -160,6 +160,34 @@ TEST(MapperLaser, EveryCellIsUpdatedOnceWhereBordersRunThroughCentresOfCells) {
   }
 }
 
+/// As far out as a scan may reach, where single precision is coarsest.
+TEST(MapperLaser, EveryCellIsUpdatedOnceThousandsOfCellsAway) {
+  sensors::RangeFinder finder = panoramic();
+  finder.angle_min_rad = -0.04;
+  finder.angle_increment_rad = 0.001;
+  finder.count = 81;
+  finder.range_max_m = 60.0;
+  MapperParams params;
+  params.georeference.resolution_m = 0.015;
+  params.scan.max_range_m = 60.0;
+  const Li2006Laser laser;
+  std::vector<FixedLogCommonality> single{{}};
+  for (const auto& mass : {laser.free_mass(), laser.hit_mass()})
+    for (const FixedLogCommonality& increment : increments(mass, laser.reliability())) single.push_back(increment);
+  Mapper mapper(rig_with(finder), params);
+  std::mt19937 random(31);
+  std::normal_distribution<float> noise(0.0F, 0.01F);
+  sensors::RangeScan scan;
+  for (int i = 0; i < finder.count; ++i) scan.ranges_m.push_back((random() % 8 == 0 ? 30.0F : 55.0F) + noise(random));
+  mapper.insert(certain({1234.5, -987.6, 0.7}), scan);
+  for (const auto& [index, tile] : mapper.grid().tiles())
+    for (int i = 0; i < grids::Tile::kCells; ++i)
+      ASSERT_TRUE(std::ranges::find(single, FixedLogCommonality{tile.empty[i], tile.occupied[i], tile.unknown[i]}) !=
+                  single.end())
+          << "cell " << i;
+  EXPECT_GT(cells_in(mapper.grid()), 400'000);
+}
+
 /// Of a robot that moves regions may overlap: they are filled in another way.
 TEST(MapperLaser, ARobotThatStandsMapsTheSameWithItsPathAsWithout) {
   sensors::RangeFinder finder = panoramic();
