@@ -25,7 +25,7 @@ constexpr int kPathKnots = 16;  // poses along a scan, between which the motion 
 constexpr double kLeastAngle = 1e-4;  // [rad]
 constexpr double kLeastCells = 1e-3;
 constexpr double kLeastShare = 1e-6;  // of the reach of the beams: some steps of single precision
-constexpr double kRounding = 1e-9;
+constexpr double kRounding = 1e-6;    // of a turn [rad]: angle_increment often comes in single precision
 constexpr double kMostMetres = 1e9;
 constexpr double kWallHalfCells =
     0.55;  // to either side of a surface: half a cell, and a bit for one on a border of cells
