@@ -123,7 +123,8 @@ void RegionFiller::measure() {
           const float left_x = right ? x0 : x1, left_y = right ? y0 : y1;
           const float right_x = right ? x1 : x0, right_y = right ? y1 : y0;
           const std::int32_t from = columns[i], to = columns[i + 1];
-          const float centre = static_cast<float>(from < to ? from : to) + 0.5F, width = right_x - left_x;
+          const float first = static_cast<float>(from < to ? from : to) + 0.5F, width = right_x - left_x;
+          const float centre = std::min(std::max(first, left_x), right_x);  // beside steep edges no row fits
           const float slope = (right_y - left_y) / (width > 0.0F ? width : 1.0F);
           slopes[i] = slope;
           rows[i] = first_centre(centre < middle(left_x, right_x) ? left_y + (centre - left_x) * slope

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "grids/evidential_grid.hpp"
+#include "mapping/cell_kernels.hpp"
 #include "mapping/pending_regions.hpp"
 
 namespace credo::mapping {

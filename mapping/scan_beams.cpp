@@ -25,7 +25,7 @@ constexpr int kPathKnots = 16;  // poses along a scan, between which the motion 
 constexpr double kLeastAngle = 1e-4;  // [rad]
 constexpr double kLeastCells = 1e-3;
 constexpr double kLeastShare = 1e-6;  // of the reach of the beams: some steps of single precision
-constexpr double kRounding = 1e-9;
+constexpr double kRounding = 1e-6;    // of a turn [rad]: angle_increment often comes in single precision
 constexpr double kMostMetres = 1e9;
 constexpr double kWallHalfCells =
     0.55;  // to either side of a surface: half a cell, and a bit for one on a border of cells
@@ -62,6 +62,10 @@ ScanBeams::ScanBeams(const sensors::RangeFinder& range_finder, const grids::Geor
   const double half = 0.5 * std::abs(range_finder.angle_increment_rad);
   touching_ = half <= params.max_half_sector_rad;
   all_round_ = touching_ && std::abs(2.0 * half * range_finder.count - 2.0 * std::numbers::pi) < kRounding;
+  const double sector_rad = 2.0 * std::min(half, params.max_half_sector_rad), between_rad = 2.0 * half - sector_rad,
+               behind_rad = 2.0 * std::numbers::pi - 2.0 * half * (range_finder.count - 1) - sector_rad;
+  sides_apart_ =
+      2.0 * half > kLeastAngle && (touching_ || between_rad > kLeastAngle) && (all_round_ || behind_rad > kLeastAngle);
   const double half_sector_rad =
       std::copysign(std::min(half, params.max_half_sector_rad), range_finder.angle_increment_rad);
   half_sector_ = {static_cast<float>(std::cos(half_sector_rad)), static_cast<float>(std::sin(half_sector_rad))};
@@ -294,10 +298,7 @@ void ScanBeams::compare_outlines() {
         close = some_close;
       });
   near_is_end_of_free_ = between == 0;
-  const double increment = std::abs(range_finder_.angle_increment_rad), around = increment * range_finder_.count;
-  const bool sides_apart =
-      increment > kLeastAngle && (touching_ || increment - 2.0 * params_.max_half_sector_rad > kLeastAngle);
-  apart_ = !moving_ && sides_apart && around <= 2.0 * std::numbers::pi + kRounding && close == 0;
+  apart_ = !moving_ && sides_apart_ && close == 0;
 }
 
 ScanBeams::Counts ScanBeams::read(const Pose2& T_map_base, const PoseReliability& reliability,

@@ -113,6 +113,7 @@ class ScanBeams {
   Turn hidden_sector_;                      // of what is left of it where it is hidden
   bool touching_ = false;                   // sectors reach half-way to their neighbours
   bool all_round_ = false;                  // so do the last one and the first
+  bool sides_apart_ = false;                // of sectors: those that are not common are clearly apart
   std::vector<float> sensor_x_, sensor_y_;  // directions of the beams in the sensor frame
 
   // The scan at hand.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -158,6 +159,48 @@ TEST(MapperLaser, EveryCellIsUpdatedOnceWhereBordersRunThroughCentresOfCells) {
                     single.end())
             << "round " << round << " cell " << i;
   }
+}
+
+/// Increments that were written down with ten digits or so: behind there is a gap which rounding may close.
+TEST(MapperLaser, EveryCellIsUpdatedOnceWhereTheLastBeamAllButMeetsTheFirst) {
+  const Li2006Laser laser;
+  std::vector<FixedLogCommonality> single{{}};
+  for (const auto& mass : {laser.free_mass(), laser.hit_mass()})
+    for (const FixedLogCommonality& increment : increments(mass, laser.reliability())) single.push_back(increment);
+  MapperParams params;
+  params.scan.max_range_m = 60.0;
+  for (int round = 0; round < 48; ++round) {
+    sensors::RangeFinder finder = panoramic();
+    finder.range_max_m = 60.0;
+    finder.count = round % 2 == 0 ? 360 : 720;
+    finder.angle_increment_rad = (2.0 * kPi - std::pow(10.0, -8.5 + 0.25 * (round % 12))) / finder.count;
+    finder.angle_min_rad = 0.5 * finder.angle_increment_rad;
+    Mapper mapper(rig_with(finder), params);
+    sensors::RangeScan scan;
+    scan.ranges_m.assign(static_cast<std::size_t>(finder.count), 25.0F);
+    mapper.insert(certain({0.025, 0.025, 0.25 * kPi * (round % 8)}), scan);  // the gap runs through centres of cells
+    for (const auto& [index, tile] : mapper.grid().tiles())
+      for (int i = 0; i < grids::Tile::kCells; ++i)
+        ASSERT_TRUE(std::ranges::find(single, FixedLogCommonality{tile.empty[i], tile.occupied[i], tile.unknown[i]}) !=
+                    single.end())
+            << "round " << round << " cell " << i;
+  }
+}
+
+TEST(MapperLaser, ARangeFinderWhoseIncrementIsInSinglePrecisionLooksAllRound) {
+  sensors::RangeFinder exact = panoramic(), rounded = panoramic();
+  rounded.angle_increment_rad = static_cast<float>(exact.angle_increment_rad);
+  Mapper a(rig_with(exact)), b(rig_with(rounded));
+  sensors::RangeScan scan;
+  scan.ranges_m.assign(360, 5.0F);
+  scan.ranges_m.back() = 1.0F;  // hides a half of the first beam
+  const Pose2 pose{0.013, 0.021, 0.6};
+  a.insert(certain(pose), scan);
+  b.insert(certain(pose), scan);
+  int different = 0;
+  for (int y = -110; y < 110; ++y)
+    for (int x = -110; x < 110; ++x) different += a.grid().at({x, y}) != b.grid().at({x, y});
+  EXPECT_LE(different, 3);  // cell centres within rounding of a border
 }
 
 /// As far out as a scan may reach, where single precision is coarsest.
