@@ -29,6 +29,9 @@ constexpr double kRounding = 1e-6;    // of a turn [rad]: angle_increment often 
 constexpr double kMostMetres = 1e9;
 constexpr double kWallHalfCells =
     0.55;  // to either side of a surface: half a cell, and a bit for one on a border of cells
+// Neighbours whose ranges differ by more than about a quarter are not on one surface, however wide they look apart.
+constexpr double kIncidencePerIncrement = 4.0;
+constexpr double kMostIncidence = 0.7;  // [rad] that sparse beams ask for
 // Of half a sector, where a nearer thing hides it: its edge is as likely in one place between the beams as in another,
 // so what is left is hidden with 5 percent at most.
 constexpr double kSeenShare = 0.1;
@@ -72,7 +75,9 @@ ScanBeams::ScanBeams(const sensors::RangeFinder& range_finder, const grids::Geor
   hidden_sector_ = {static_cast<float>(std::cos(kSeenShare * half_sector_rad)),
                     static_cast<float>(std::sin(kSeenShare * half_sector_rad))};
   cells_per_metre_ = static_cast<float>(1.0 / georeference.resolution_m);
-  const double widest_m = std::max(kWallHalfCells * georeference.resolution_m / std::sin(params.min_incidence_rad),
+  const double sparse_rad = std::min(kIncidencePerIncrement * 2.0 * half, kMostIncidence);
+  min_sine_ = static_cast<float>(std::sin(std::max(params.min_incidence_rad, sparse_rad)));
+  const double widest_m = std::max(kWallHalfCells * georeference.resolution_m / double{min_sine_},
                                    double{std::ranges::max(tables_.half_width_m)});
   reach_m_ = std::min(range_finder.range_max_m, params.max_range_m) + widest_m + 2.0 * georeference.resolution_m;
   least_step_m_ = static_cast<float>(std::max(kLeastCells * georeference.resolution_m, kLeastShare * reach_m_));
@@ -215,7 +220,7 @@ double ScanBeams::place(const Pose2& T_map_base, const sensors::MotionPath& path
 
 /// Which neighbours hit one surface.
 void ScanBeams::join() {
-  const auto min_sine = static_cast<float>(std::sin(params_.min_incidence_rad));
+  const float min_sine = min_sine_;
   const auto resolution = static_cast<float>(georeference_.resolution_m);
   const std::size_t count = range_m_.size();
   sine_before_.front() = sine_after_.back() = 0.0F;
@@ -311,7 +316,7 @@ ScanBeams::Counts ScanBeams::read(const Pose2& T_map_base, const PoseReliability
   const Eigen::Vector2d here = T_map_base * range_finder_.T_base_sensor.translation();
   base_ = georeference_.cell_at(here);
   const double moved_m = place(T_map_base, path, time);
-  if (!(moved_m <= std::max(range_finder_.range_max_m, 1.0)))
+  if (!(moved_m <= std::max(reach_m_, 1.0)))
     throw std::out_of_range("the motion given with a scan carries the sensor " + std::to_string(moved_m) +
                             " m away within the scan: leave the motion out or correct it");
   join();

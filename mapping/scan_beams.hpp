@@ -107,6 +107,7 @@ class ScanBeams {
   LaserTables tables_;
   ScanParams params_;
   float cells_per_metre_ = 0.0F;
+  float min_sine_ = 0.0F;                   // of the incidence on a surface that neighbours share
   double reach_m_ = 0.0;                    // from the sensor: no beam says anything beyond
   float least_step_m_ = 0.0F;               // between ends of beams that are not the same
   Turn half_sector_;                        // of half the angle between beams, at most

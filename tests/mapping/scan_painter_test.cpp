@@ -257,6 +257,28 @@ TEST(MapperLaser, ARobotThatStandsMapsTheSameWithItsPathAsWithout) {
   EXPECT_GT(cells, 100'000);
 }
 
+/// Sparse beams lie so far apart that a jump from one thing to another looks like a surface met at an angle.
+TEST(MapperLaser, NothingIsPaintedBetweenANearAndAFarThingBySparseBeams) {
+  sensors::RangeFinder finder = panoramic();
+  finder.count = 72;
+  finder.angle_increment_rad = to_radians(5.0);
+  Mapper mapper(rig_with(finder));
+  sensors::RangeScan scan;
+  for (int i = 0; i < finder.count; ++i) scan.ranges_m.push_back(i == 36 ? 2.0F : 4.0F);  // 36: straight ahead
+  mapper.insert(certain({}), scan);
+  const auto state_at = [&](double range_m, double degrees) {
+    const double angle = to_radians(degrees);
+    const Eigen::Vector2d there(range_m * std::cos(angle), range_m * std::sin(angle));
+    return grids::decide(mapper.grid().at(mapper.grid().georeference().cell_at(there)));
+  };
+  EXPECT_EQ(state_at(2.0, 0.5), grids::CellState::kOccupied);
+  EXPECT_EQ(state_at(3.99, 7.5), grids::CellState::kOccupied);  // between far beams
+  for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8}) {     // of the way from the near hit to the far one
+    EXPECT_NE(state_at(2.0 + 2.0 * share, 5.0 * share), grids::CellState::kOccupied) << share;
+    EXPECT_NE(state_at(2.0 + 2.0 * share, -5.0 * share), grids::CellState::kOccupied) << share;
+  }
+}
+
 TEST(MapperLaser, BeamsThatTurnTheOtherWayGiveTheSameMap) {
   sensors::RangeFinder left = panoramic(), right = panoramic();
   left.angle_min_rad = -1.5;
