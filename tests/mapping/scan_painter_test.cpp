@@ -273,7 +273,7 @@ TEST(MapperLaser, NothingIsPaintedBetweenANearAndAFarThingBySparseBeams) {
   };
   EXPECT_EQ(state_at(2.0, 0.5), grids::CellState::kOccupied);
   EXPECT_EQ(state_at(3.99, 7.5), grids::CellState::kOccupied);  // between far beams
-  for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8}) {     // of the way from the near hit to the far one
+  for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8}) {      // of the way from the near hit to the far one
     EXPECT_NE(state_at(2.0 + 2.0 * share, 5.0 * share), grids::CellState::kOccupied) << share;
     EXPECT_NE(state_at(2.0 + 2.0 * share, -5.0 * share), grids::CellState::kOccupied) << share;
   }
