@@ -3,8 +3,14 @@
 
 #pragma once
 
-#include <limits>
+#include <gtest/gtest.h>
 
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "datasets/dataset.hpp"
 #include "datasets/dataset_writer.hpp"
 #include "tests/datasets/temporary_folder.hpp"
 
@@ -75,5 +81,23 @@ inline void write_small_dataset(const std::filesystem::path& target, const Datas
   writer.add_event({.time = kStart + 7, .name = "kidnapped, twice"});
   writer.finish();
 }
+
+/// Each test has one of its own to damage.
+class SmallDataset : public testing::Test {
+ protected:
+  SmallDataset() { write_small_dataset(folder_); }
+
+  [[nodiscard]] std::string complaint_of_opening() const {
+    return complaint([this] { (void)Dataset::open(folder_); });
+  }
+  /// Replaces text in a file of the dataset, opens it and returns the complaint.
+  [[nodiscard]] std::string complaint_with(const std::string& file, std::string_view from, std::string_view to) const {
+    replace_in(folder_ / file, from, to);
+    return complaint_of_opening();
+  }
+
+  TemporaryFolder temporary_;
+  std::filesystem::path folder_ = temporary_ / "small";
+};
 
 }  // namespace credo::datasets

@@ -17,6 +17,25 @@ namespace {
 
 using namespace test;  // NOLINT: the helpers of these tests
 
+/// What one beam may add to a cell, at any trust; nothing, too.
+std::vector<FixedLogCommonality> single_increments() {
+  const Li2006Laser laser;
+  std::vector<FixedLogCommonality> single{{}};
+  for (const auto& mass : {laser.free_mass(), laser.hit_mass()})
+    for (const FixedLogCommonality& increment : increments(mass, laser.reliability())) single.push_back(increment);
+  return single;
+}
+
+/// After one scan.
+void expect_every_cell_is_updated_once(const grids::EvidentialGrid& grid) {
+  static const std::vector<FixedLogCommonality> kSingle = single_increments();
+  for (const auto& [index, tile] : grid.tiles())
+    for (int i = 0; i < grids::Tile::kCells; ++i)
+      ASSERT_TRUE(std::ranges::find(kSingle, FixedLogCommonality{tile.empty[i], tile.occupied[i], tile.unknown[i]}) !=
+                  kSingle.end())
+          << "cell " << i << " of tile " << index.x << ' ' << index.y;
+}
+
 TEST(MapperLaser, AnEmptyRoomGetsItsWallsWithinACell) {
   const sensors::RangeFinder finder = panoramic();
   Mapper mapper(rig_with(finder));
@@ -114,16 +133,12 @@ TEST(MapperLaser, EveryCellIsUpdatedOnceWhereTrustChangesAlongASurface) {
     if (i % 29 == 5) scan.ranges_m[i] = i % 2 == 0 ? kNan : kInf;
   mapper.insert(with_sigma(pose, 0.0, 0.01), scan);  // trust falls with the range
 
-  const Li2006Laser laser;
-  std::vector<FixedLogCommonality> single;  // what one beam may add
-  for (const auto& mass : {laser.free_mass(), laser.hit_mass()})
-    for (const FixedLogCommonality& increment : increments(mass, laser.reliability())) single.push_back(increment);
+  ASSERT_NO_FATAL_FAILURE(expect_every_cell_is_updated_once(mapper.grid()));
   std::vector<FixedLogCommonality> seen;
   const grids::CellBox box = mapper.grid().bounding_box();
   for (int y = box.min.y; y < box.min.y + box.height; ++y)
     for (int x = box.min.x; x < box.min.x + box.width; ++x) {
       const FixedLogCommonality cell = mapper.grid().at({x, y});
-      ASSERT_TRUE(std::ranges::find(single, cell) != single.end()) << x << ' ' << y;
       if (std::ranges::find(seen, cell) == seen.end()) seen.push_back(cell);
     }
   EXPECT_GT(seen.size(), 20U);  // trust takes many levels
@@ -134,10 +149,6 @@ TEST(MapperLaser, EveryCellIsUpdatedOnceWhereTrustChangesAlongASurface) {
 /// decides on which side a cell is.
 TEST(MapperLaser, EveryCellIsUpdatedOnceWhereBordersRunThroughCentresOfCells) {
   sensors::RangeFinder finder = panoramic();
-  const Li2006Laser laser;
-  std::vector<FixedLogCommonality> single{{}};
-  for (const auto& mass : {laser.free_mass(), laser.hit_mass()})
-    for (const FixedLogCommonality& increment : increments(mass, laser.reliability())) single.push_back(increment);
   std::mt19937 random(23);
   for (int round = 0; round < 400; ++round) {
     finder.count = round % 2 == 0 ? 360 : 8;
@@ -153,20 +164,13 @@ TEST(MapperLaser, EveryCellIsUpdatedOnceWhereBordersRunThroughCentresOfCells) {
     const auto multiple = [&](double unit) { return unit * static_cast<double>(random() % 8); };
     const Pose2 pose{multiple(0.025), multiple(0.025), multiple(0.25 * kPi)};
     mapper.insert(certain(pose), scan);
-    for (const auto& [index, tile] : mapper.grid().tiles())
-      for (int i = 0; i < grids::Tile::kCells; ++i)
-        ASSERT_TRUE(std::ranges::find(single, FixedLogCommonality{tile.empty[i], tile.occupied[i], tile.unknown[i]}) !=
-                    single.end())
-            << "round " << round << " cell " << i;
+    SCOPED_TRACE(round);
+    ASSERT_NO_FATAL_FAILURE(expect_every_cell_is_updated_once(mapper.grid()));
   }
 }
 
 /// Increments that were written down with ten digits or so: behind there is a gap which rounding may close.
 TEST(MapperLaser, EveryCellIsUpdatedOnceWhereTheLastBeamAllButMeetsTheFirst) {
-  const Li2006Laser laser;
-  std::vector<FixedLogCommonality> single{{}};
-  for (const auto& mass : {laser.free_mass(), laser.hit_mass()})
-    for (const FixedLogCommonality& increment : increments(mass, laser.reliability())) single.push_back(increment);
   MapperParams params;
   params.scan.max_range_m = 60.0;
   for (int round = 0; round < 48; ++round) {
@@ -179,11 +183,8 @@ TEST(MapperLaser, EveryCellIsUpdatedOnceWhereTheLastBeamAllButMeetsTheFirst) {
     sensors::RangeScan scan;
     scan.ranges_m.assign(static_cast<std::size_t>(finder.count), 25.0F);
     mapper.insert(certain({0.025, 0.025, 0.25 * kPi * (round % 8)}), scan);  // the gap runs through centres of cells
-    for (const auto& [index, tile] : mapper.grid().tiles())
-      for (int i = 0; i < grids::Tile::kCells; ++i)
-        ASSERT_TRUE(std::ranges::find(single, FixedLogCommonality{tile.empty[i], tile.occupied[i], tile.unknown[i]}) !=
-                    single.end())
-            << "round " << round << " cell " << i;
+    SCOPED_TRACE(round);
+    ASSERT_NO_FATAL_FAILURE(expect_every_cell_is_updated_once(mapper.grid()));
   }
 }
 
@@ -213,21 +214,13 @@ TEST(MapperLaser, EveryCellIsUpdatedOnceThousandsOfCellsAway) {
   MapperParams params;
   params.georeference.resolution_m = 0.015;
   params.scan.max_range_m = 60.0;
-  const Li2006Laser laser;
-  std::vector<FixedLogCommonality> single{{}};
-  for (const auto& mass : {laser.free_mass(), laser.hit_mass()})
-    for (const FixedLogCommonality& increment : increments(mass, laser.reliability())) single.push_back(increment);
   Mapper mapper(rig_with(finder), params);
   std::mt19937 random(31);
   std::normal_distribution<float> noise(0.0F, 0.01F);
   sensors::RangeScan scan;
   for (int i = 0; i < finder.count; ++i) scan.ranges_m.push_back((random() % 8 == 0 ? 30.0F : 55.0F) + noise(random));
   mapper.insert(certain({1234.5, -987.6, 0.7}), scan);
-  for (const auto& [index, tile] : mapper.grid().tiles())
-    for (int i = 0; i < grids::Tile::kCells; ++i)
-      ASSERT_TRUE(std::ranges::find(single, FixedLogCommonality{tile.empty[i], tile.occupied[i], tile.unknown[i]}) !=
-                  single.end())
-          << "cell " << i;
+  expect_every_cell_is_updated_once(mapper.grid());
   EXPECT_GT(cells_in(mapper.grid()), 400'000);
 }
 
