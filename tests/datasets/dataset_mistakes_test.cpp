@@ -28,8 +28,8 @@ class MistakeInADataset : public SmallDataset, public testing::WithParamInterfac
 TEST_P(MistakeInADataset, IsReportedWithFileAndLine) {
   const Mistake& mistake = GetParam();
   const std::string said = complaint_with(mistake.file, mistake.from, mistake.to);
-  EXPECT_THAT(said, HasSubstr(folder_ / mistake.file));
-  for (const std::string& part : mistake.said) EXPECT_THAT(said, HasSubstr(part));
+  EXPECT_THAT(said, testing::HasSubstr(folder_ / mistake.file));
+  for (const std::string& part : mistake.said) EXPECT_THAT(said, testing::HasSubstr(part));
 }
 
 const Mistake kMistakes[] = {
